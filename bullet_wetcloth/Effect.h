@@ -1,0 +1,55 @@
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+
+#include <LinearMath/btVector3.h>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+class WetCloth;
+
+/// The fixed order of a step, whatever order effects were added in. Between `material` and `forces` the step
+/// commits: masses, momentum and link constants are written once, and only if water moved.
+enum class Stage {
+  sources,    ///< water arrives: absorption, rain, immersion, contact
+  transport,  ///< water spreads inside the cloth
+  losses,     ///< water leaves: dripping, drying
+  material,   ///< what wetness changes in the fabric
+  forces,     ///< velocity changes: wind, drag, cling
+  elasticity  ///< springs that must see the velocities of all other forces
+};
+
+/// What an effect is told about the substep.
+struct Step {
+  double dt;          ///< the substep as the body sees it (its timescale included) [s], > 0
+  double time;        ///< simulated time at the start of the substep [s]
+  btVector3 gravity;  ///< acceleration that Bullet will add to the body in this substep [m/s^2]
+};
+
+/// One question that a scene asks of a cloth, answered once per substep.
+///
+/// The contract of a derived class:
+/// - its constructor checks its parameters and throws std::invalid_argument naming the field and the value;
+/// - attach() is called once, when the effect is added, and again whenever the body's nodes, links or faces
+///   changed in number; it builds what apply() needs and throws std::invalid_argument when the body lacks it;
+/// - apply() never throws, never allocates after its first call, and never writes a value that is not finite;
+/// - it changes water only through WetCloth::water(), and velocities only through WetCloth::push().
+class Effect {
+ public:
+  virtual ~Effect() = default;
+  virtual const char* name() const = 0;
+  virtual Stage stage() const = 0;
+  virtual void attach(WetCloth& cloth) { static_cast<void>(cloth); }
+  /// The effect is about to be removed: gives back what it changed in the body.
+  virtual void detach(WetCloth& cloth) { static_cast<void>(cloth); }
+  virtual void apply(WetCloth& cloth, const Step& step) = 0;
+
+ protected:
+  Effect() = default;
+  Effect(const Effect&) = default;
+  Effect& operator=(const Effect&) = default;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,166 @@
+#include "bullet_wetcloth/NodeMasses.h"
+
+#include <BulletSoftBody/btDeformableBackwardEulerObjective.h>
+#include <BulletSoftBody/btDeformableBodySolver.h>
+#include <BulletSoftBody/btPreconditioner.h>
+
+#include <cstddef>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+// Bullet's ImpulseMatrix for a step of 1: the inverse of 1/m_node + 1/m_body + r x I^-1 x r.
+btMatrix3x3 anchorImpulseMatrix(btScalar nodeInverseMass, const btRigidBody& rigid, const btVector3& arm) {
+  const btScalar inverseMass = nodeInverseMass + rigid.getInvMass();
+  if (inverseMass == 0) return btMatrix3x3(0, 0, 0, 0, 0, 0, 0, 0, 0);
+  const btMatrix3x3 cross(0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0);
+  const btMatrix3x3 diagonal(inverseMass, 0, 0, 0, inverseMass, 0, 0, 0, inverseMass);
+  return (diagonal - cross * rigid.getInvInertiaTensorWorld() * cross).inverse();
+}
+
+}  // namespace
+
+void NodeMasses::remember() {
+  m_inverseMass.resize(static_cast<std::size_t>(m_body.m_nodes.size()));
+  for (int i = 0; i < m_body.m_nodes.size(); ++i) m_inverseMass[static_cast<std::size_t>(i)] = m_body.m_nodes[i].m_im;
+}
+
+void NodeMasses::commit(Water& water) {
+  const bool changed = writeNodes(water);
+  water.clearArrivals();
+  if (!changed) return;
+  ++m_commits;
+  refreshLinks();
+  if (m_body.m_clusters.size() > 0) refreshClusters();
+  if (m_body.m_pose.m_bframe) refreshPose();
+  if (m_deformable) refreshDeformable();
+}
+
+bool NodeMasses::writeNodes(Water& water) {
+  bool changed = false;
+  for (std::size_t i = 0; i < m_inverseMass.size(); ++i) {
+    btSoftBody::Node& node = m_body.m_nodes[static_cast<int>(i)];
+    if (node.m_im != m_inverseMass[i]) {
+      if (node.m_im > 0) water.setDryMass(i, 1 / static_cast<double>(node.m_im));
+      m_inverseMass[i] = node.m_im;
+      changed = true;
+    }
+    if (node.m_im == 0) continue;
+    if (water.arrival(i).mass > 0) mixMomentum(node, water.arrival(i));
+    const btScalar inverseMass = static_cast<btScalar>(1 / water.totalMass(i));
+    if (inverseMass != node.m_im) {
+      node.m_im = m_inverseMass[i] = inverseMass;
+      changed = true;
+    }
+  }
+  return changed;
+}
+
+// What leaves takes the node's own velocity with it, so only arrivals change the velocity: v' - v = (p - dm v) /
+// (m + dm), with m the mass before.
+void NodeMasses::mixMomentum(btSoftBody::Node& node, const Water::Arrival& arrival) const {
+  const double inverse = 1 / (1 / static_cast<double>(node.m_im) + arrival.mass);
+  const auto change = [&](int axis) {
+    const double velocity = static_cast<double>(node.m_v[axis]);
+    return static_cast<btScalar>((arrival.momentum[axis] - arrival.mass * velocity) * inverse);
+  };
+  const btVector3 deltaVelocity(change(0), change(1), change(2));
+  node.m_v += deltaVelocity;
+  if (m_deformable) node.m_vn += deltaVelocity;
+}
+
+// As btSoftBody::updateLinkConstants(), bit for bit, but reading the masses from the packed array: the nodes are
+// several cache lines each.
+void NodeMasses::refreshLinks() {
+  ++m_linkRefreshes;
+  if (m_body.m_links.size() == 0) return;
+  const btSoftBody::Node* const nodes = &m_body.m_nodes[0];
+  const btScalar* const inverseMass = m_inverseMass.data();
+  btSoftBody::Link* link = &m_body.m_links[0];
+  btSoftBody::Link* const end = link + m_body.m_links.size();
+  for (; link != end; ++link) {
+    const btScalar sum = inverseMass[link->m_n[0] - nodes] + inverseMass[link->m_n[1] - nodes];
+    const btScalar stiffness = link->m_material->m_kLST;
+    link->m_c0 = stiffness == 1 ? sum : sum / stiffness;
+  }
+}
+
+// As btSoftBody::initializeClusters(), which cannot run on a moving body (it zeroes velocities and leaks the
+// cluster's tree leaf): masses, and then centre, inertia and frame in the rest shape.
+void NodeMasses::refreshClusters() {
+  for (int k = 0; k < m_body.m_clusters.size(); ++k) {
+    btSoftBody::Cluster& cluster = *m_body.m_clusters[k];
+    if (cluster.m_nodes.size() == 0 || cluster.m_masses.size() != cluster.m_nodes.size()) continue;
+    btScalar total = 0;
+    btVector3 centre(0, 0, 0);
+    for (int j = 0; j < cluster.m_nodes.size(); ++j) {
+      const btScalar inverseMass = cluster.m_nodes[j]->m_im;
+      cluster.m_masses[j] = inverseMass > 0 ? 1 / inverseMass : btScalar(BT_LARGE_FLOAT);
+      total += cluster.m_masses[j];
+      centre += cluster.m_framerefs[j] * cluster.m_masses[j];
+    }
+    cluster.m_imass = 1 / total;
+    centre *= cluster.m_imass;
+    btMatrix3x3 inertia(0, 0, 0, 0, 0, 0, 0, 0, 0);
+    for (int j = 0; j < cluster.m_nodes.size(); ++j) {
+      cluster.m_framerefs[j] -= centre;
+      const btVector3& r = cluster.m_framerefs[j];
+      const btScalar mass = cluster.m_masses[j];
+      const btScalar squared = r.length2();
+      for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) inertia[row][column] -= mass * r[row] * r[column];
+        inertia[row][row] += mass * squared;
+      }
+    }
+    cluster.m_locii = inertia.inverse();
+  }
+}
+
+// As btSoftBody::setPose(), which would also reset every rest length: weights by mass, and then the reference shape
+// about its new centre.
+void NodeMasses::refreshPose() {
+  btSoftBody::Pose& pose = m_body.m_pose;
+  const int count = m_body.m_nodes.size();
+  if (pose.m_wgh.size() != count || pose.m_pos.size() != count) return;
+  btScalar freeMass = 0;
+  int pinned = 0;
+  for (int i = 0; i < count; ++i) {
+    if (m_body.m_nodes[i].m_im > 0) {
+      freeMass += 1 / m_body.m_nodes[i].m_im;
+    } else {
+      ++pinned;
+    }
+  }
+  const btScalar pinnedMass = freeMass * static_cast<btScalar>(count) * 1000;  // Bullet's own weight for a pin
+  const btScalar total = freeMass + static_cast<btScalar>(pinned) * pinnedMass;
+  btVector3 centre(0, 0, 0);
+  for (int i = 0; i < count; ++i) {
+    const btScalar inverseMass = m_body.m_nodes[i].m_im;
+    pose.m_wgh[i] = (inverseMass > 0 ? 1 / inverseMass : pinnedMass) / total;
+    centre += pose.m_pos[i] * pose.m_wgh[i];
+  }
+  btMatrix3x3 moments(0, 0, 0, 0, 0, 0, 0, 0, 0);
+  for (int i = 0; i < count; ++i) {
+    pose.m_pos[i] -= centre;
+    const btVector3& r = pose.m_pos[i];
+    for (int row = 0; row < 3; ++row) moments[row] += r * (pose.m_wgh[i] * r[row]);
+  }
+  // A flat cloth has no extent across itself: Bullet's own inverse is not finite there, and ours leaves it alone.
+  if (moments.determinant() != 0) pose.m_aqq = moments.inverse();
+}
+
+void NodeMasses::refreshDeformable() {
+  for (int i = 0; i < m_body.m_deformableAnchors.size(); ++i) {
+    btSoftBody::DeformableNodeRigidAnchor& anchor = m_body.m_deformableAnchors[i];
+    anchor.m_c2 = anchor.m_node->m_im;
+    const btRigidBody* rigid = btRigidBody::upcast(anchor.m_cti.m_colObj);
+    if (rigid) anchor.m_c0 = anchorImpulseMatrix(anchor.m_node->m_im, *rigid, anchor.m_c1);
+  }
+  btSoftBodySolver* solver = m_body.getSoftBodySolver();
+  if (solver) static_cast<btDeformableBodySolver*>(solver)->m_objective->m_massPreconditioner->reinitialize(true);
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

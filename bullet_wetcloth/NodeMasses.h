@@ -1,0 +1,52 @@
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/Water.h"
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// The one writer of node masses.
+///
+/// btSoftBody::setMass() makes the next step reset every rest length to the deformed length, so it must never be
+/// used on a running body. This writes m_im and then everything that Bullet derived from it: the links' m_c0,
+/// cluster masses and inertia, pose weights, the deformable world's anchors and mass preconditioner.
+class NodeMasses {
+ public:
+  NodeMasses(btSoftBody& body, bool deformable) : m_body(body), m_deformable(deformable) {}
+
+  /// Takes over the body's present masses as known.
+  void remember();
+
+  /// Writes dry mass plus water into each free node, mixes the momentum of what arrived
+  /// (v' = (m v + p) / (m + dm)), and refreshes Bullet's caches if a mass changed. A free node whose mass the
+  /// application changed since the last commit takes that mass as its new dry mass; a node it pinned stays pinned.
+  void commit(Water& water);
+
+  /// Recomputes what Bullet derived from node masses and link materials for each link.
+  void refreshLinks();
+
+  /// How often masses and link constants were written: for tests that count work.
+  long long commits() const { return m_commits; }
+  long long linkRefreshes() const { return m_linkRefreshes; }
+
+ private:
+  bool writeNodes(Water& water);
+  void mixMomentum(btSoftBody::Node& node, const Water::Arrival& arrival) const;
+  void refreshClusters();
+  void refreshPose();
+  void refreshDeformable();
+
+  btSoftBody& m_body;
+  bool m_deformable;
+  std::vector<btScalar> m_inverseMass;  // what we last wrote, packed for the link loop
+  long long m_commits = 0;
+  long long m_linkRefreshes = 0;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Throws std::invalid_argument "field = value: must be allowed".
+template <class Value>
+[[noreturn]] void rejectValue(const std::string& field, const Value& value, const std::string& allowed) {
+  std::ostringstream text;
+  text << field << " = " << value << ": must be " << allowed;
+  throw std::invalid_argument(text.str());
+}
+
+inline void requirePositive(const std::string& field, double value) {
+  if (!(std::isfinite(value) && value > 0)) rejectValue(field, value, "finite and > 0");
+}
+
+inline void requireNotNegative(const std::string& field, double value) {
+  if (!(std::isfinite(value) && value >= 0)) rejectValue(field, value, "finite and >= 0");
+}
+
+inline void requireFraction(const std::string& field, double value) {
+  if (!(value >= 0 && value <= 1)) rejectValue(field, value, "in [0, 1]");
+}
+
+inline void requireFinite(const std::string& field, double value) {
+  if (!std::isfinite(value)) rejectValue(field, value, "finite");
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,126 @@
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Where the water of one cloth came from and went to [kg]. At every step, to rounding,
+/// initial + absorbed == held + dripped + evaporated.
+struct Ledger {
+  double initial = 0;     ///< held when the cloth was added, plus what was set by hand since (may be negative)
+  double absorbed = 0;    ///< brought by the sources
+  double dripped = 0;     ///< lost as liquid
+  double evaporated = 0;  ///< lost as vapour
+  double held = 0;        ///< in the cloth now
+
+  /// initial + absorbed - dripped - evaporated - held: zero to rounding.
+  double imbalance() const { return initial + absorbed - dripped - evaporated - held; }
+};
+
+/// A sum whose rounding error does not grow with the number of terms (Neumaier 1974).
+class CompensatedSum {
+ public:
+  void add(double term) {
+    const double sum = m_sum + term;
+    const bool sumIsLarger = (m_sum < 0 ? -m_sum : m_sum) >= (term < 0 ? -term : term);
+    m_compensation += sumIsLarger ? (m_sum - sum) + term : (term - sum) + m_sum;
+    m_sum = sum;
+  }
+  double value() const { return m_sum + m_compensation; }
+
+ private:
+  double m_sum = 0;
+  double m_compensation = 0;
+};
+
+/// The water of one cloth, per node, and its ledger. All in kg and double, whatever Bullet's precision.
+///
+/// Effects change it through absorb(), drip(), evaporate() and move(); what arrived since the last commit and with
+/// which momentum is remembered, so that the commit can update velocities and masses once per step.
+class Water {
+ public:
+  std::size_t size() const { return m_held.size(); }
+
+  double held(std::size_t node) const { return m_held[node]; }
+  double dryMass(std::size_t node) const { return m_dryMass[node]; }
+  /// What the node holds when saturated.
+  double capacity(std::size_t node) const { return m_capacityRatio * m_dryMass[node]; }
+  /// held / capacity: 0 dry, 1 saturated, more when a source has overfilled the node.
+  double saturation(std::size_t node) const { return m_held[node] / capacity(node); }
+  double totalMass(std::size_t node) const { return m_dryMass[node] + m_held[node]; }
+  double capacityRatio() const { return m_capacityRatio; }
+
+  Ledger ledger() const;
+
+  /// Grows with every change of the water, by an effect or by hand: an effect that found nothing to do may idle
+  /// until it changes.
+  unsigned long long revision() const { return m_revision; }
+
+  // --- for effects, inside a step ---------------------------------------------------------------------------
+
+  /// Water that arrives from outside with velocity (vx, vy, vz) [m/s]. `mass` must be finite and >= 0.
+  void absorb(std::size_t node, double mass, double vx, double vy, double vz) {
+    const double before = m_held[node];
+    m_held[node] = before + mass;
+    const double arrived = m_held[node] - before;  // what the rounded sum really gained, so the ledger stays exact
+    m_absorbed.add(arrived);
+    Arrival& arrival = m_arrivals[node];
+    arrival.mass += arrived;
+    arrival.momentum[0] += arrived * vx;
+    arrival.momentum[1] += arrived * vy;
+    arrival.momentum[2] += arrived * vz;
+    markMoved();
+  }
+  /// Liquid that leaves at the node's own velocity; at most what is held. Returns what left.
+  double drip(std::size_t node, double mass) { return take(node, mass, m_dripped); }
+  /// Vapour that leaves at the node's own velocity; at most what is held. Returns what left.
+  double evaporate(std::size_t node, double mass) { return take(node, mass, m_evaporated); }
+  /// Water that moves inside the cloth, with the velocity of the node it leaves.
+  void move(std::size_t from, std::size_t to, double mass, double vx, double vy, double vz);
+
+  // --- for the commit ---------------------------------------------------------------------------------------
+
+  struct Arrival {
+    double mass = 0;
+    double momentum[3] = {0, 0, 0};
+  };
+  bool movedSinceCommit() const { return m_movedSinceCommit; }
+  const Arrival& arrival(std::size_t node) const { return m_arrivals[node]; }
+  void clearArrivals();
+
+  // --- for WetCloth -----------------------------------------------------------------------------------------
+
+  /// Starts over with these dry masses [kg], all > 0, no water, and an empty ledger.
+  void reset(std::vector<double> dryMass, double capacityRatio);
+  /// Replaces the water by hand; booked under `initial`. Each value finite and >= 0.
+  void setHeld(const std::vector<double>& held);
+  /// New dry mass of one node, its water unchanged.
+  void setDryMass(std::size_t node, double mass) { m_dryMass[node] = mass; }
+  /// The body's nodes changed: new arrays whose total water must equal the old one's to rounding.
+  void replaceNodes(std::vector<double> dryMass, std::vector<double> held);
+
+ private:
+  double take(std::size_t node, double mass, CompensatedSum& account);
+  void markMoved() {
+    m_movedSinceCommit = true;
+    ++m_revision;
+  }
+
+  std::vector<double> m_held;
+  std::vector<double> m_dryMass;
+  std::vector<Arrival> m_arrivals;
+  double m_capacityRatio = 0;
+  CompensatedSum m_initial;
+  CompensatedSum m_absorbed;
+  CompensatedSum m_dripped;
+  CompensatedSum m_evaporated;
+  unsigned long long m_revision = 0;
+  bool m_movedSinceCommit = false;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,147 @@
+#include "bullet_wetcloth/WetCloth.h"
+
+#include "bullet_wetcloth/DryMass.h"
+#include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/WetClothWorld.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+WetCloth::WetCloth(WetClothWorld& world, btSoftBody& body, Fabric fabric, bool deformable)
+    : m_world(world),
+      m_body(body),
+      m_fabric(std::move(fabric)),
+      m_deformable(deformable),
+      m_masses(body, deformable) {
+  m_water.reset(dryMasses(m_body, m_fabric.arealDensity), m_fabric.capacity);
+  m_masses.remember();
+  rememberBody();
+}
+
+WetCloth::~WetCloth() = default;
+
+Effect& WetCloth::add(std::unique_ptr<Effect> effect) {
+  if (!effect) rejectValue("effect", "null", "an effect");
+  if (bodyChanged()) adaptToBody();
+  effect->attach(*this);
+  const auto isLater = [](Stage stage, const std::unique_ptr<Effect>& other) { return stage < other->stage(); };
+  const auto position = std::upper_bound(m_effects.begin(), m_effects.end(), effect->stage(), isLater);
+  return **m_effects.insert(position, std::move(effect));
+}
+
+void WetCloth::remove(Effect& effect) {
+  const auto isIt = [&](const std::unique_ptr<Effect>& other) { return other.get() == &effect; };
+  const auto position = std::find_if(m_effects.begin(), m_effects.end(), isIt);
+  if (position == m_effects.end()) rejectValue("effect", effect.name(), "one of this cloth's effects");
+  effect.detach(*this);
+  m_effects.erase(position);
+}
+
+double WetCloth::saturation(int node) const { return m_water.saturation(checked(node)); }
+double WetCloth::held(int node) const { return m_water.held(checked(node)); }
+double WetCloth::dryMass(int node) const { return m_water.dryMass(checked(node)); }
+double WetCloth::capacity(int node) const { return m_water.capacity(checked(node)); }
+
+double WetCloth::meanSaturation() const {
+  double held = 0;
+  double capacity = 0;
+  for (std::size_t i = 0; i < m_water.size(); ++i) {
+    held += m_water.held(i);
+    capacity += m_water.capacity(i);
+  }
+  return held / capacity;
+}
+
+void WetCloth::setSaturation(double saturation) {
+  requireFraction("saturation", saturation);
+  if (bodyChanged()) adaptToBody();
+  std::vector<double> held(m_water.size());
+  for (std::size_t i = 0; i < held.size(); ++i) held[i] = saturation * m_water.capacity(i);
+  setHeld(held);
+}
+
+void WetCloth::setHeld(const std::vector<double>& held) {
+  if (bodyChanged()) adaptToBody();
+  if (held.size() != m_water.size()) {
+    rejectValue("held.size()", held.size(), "the number of nodes, " + std::to_string(m_water.size()));
+  }
+  for (std::size_t i = 0; i < held.size(); ++i) requireNotNegative("held[" + std::to_string(i) + "]", held[i]);
+  m_water.setHeld(held);
+  m_masses.commit(m_water);
+}
+
+Colour WetCloth::colour(int node) const {
+  const std::array<double, 3>& dry = m_fabric.dryColour;
+  return wetColour({dry[0], dry[1], dry[2]}, saturation(node));
+}
+
+double WetCloth::roughness(int node) const { return wetRoughness(m_fabric.dryRoughness, saturation(node)); }
+
+void WetCloth::log(const std::string& message) const { m_world.log(message); }
+
+// Calls `action` on the effect at `index` and moves on to the next. Effects of ours do not throw here, but a user's
+// own may, and an exception must not travel through Bullet's step: that effect is removed, with a message.
+template <class Action>
+void WetCloth::guarded(std::size_t& index, Action action) {
+  try {
+    action(*m_effects[index]);
+    ++index;
+  } catch (const std::exception& error) {
+    log(std::string("wetcloth: effect ") + m_effects[index]->name() + " removed: " + error.what());
+    m_effects.erase(m_effects.begin() + static_cast<std::ptrdiff_t>(index));
+  }
+}
+
+void WetCloth::step(const Step& step) {
+  if (m_effects.empty() || !(step.dt > 0)) return;
+  if (bodyChanged()) adaptToBody();
+  std::size_t next = 0;
+  const auto run = [&](Effect& effect) { effect.apply(*this, step); };
+  while (next < m_effects.size() && m_effects[next]->stage() < Stage::forces) guarded(next, run);
+  if (m_water.movedSinceCommit()) m_masses.commit(m_water);
+  while (next < m_effects.size()) guarded(next, run);
+}
+
+void WetCloth::releaseEffects() {
+  for (const auto& effect : m_effects) effect->detach(*this);
+  m_effects.clear();
+}
+
+bool WetCloth::bodyChanged() const {
+  return m_body.m_nodes.size() != m_nodeCount || m_body.m_links.size() != m_linkCount ||
+         m_body.m_faces.size() != m_faceCount;
+}
+
+void WetCloth::rememberBody() {
+  m_nodeCount = m_body.m_nodes.size();
+  m_linkCount = m_body.m_links.size();
+  m_faceCount = m_body.m_faces.size();
+}
+
+void WetCloth::adaptToBody() {
+  if (m_body.m_nodes.size() != m_nodeCount) {
+    log("wetcloth: the body's nodes changed from " + std::to_string(m_nodeCount) + " to " +
+        std::to_string(m_body.m_nodes.size()) + "; its water is kept");
+    redistributeWater(m_body, m_fabric.arealDensity, m_water);
+    m_masses.remember();
+    m_masses.commit(m_water);
+  }
+  rememberBody();
+  for (std::size_t i = 0; i < m_effects.size();) guarded(i, [&](Effect& effect) { effect.attach(*this); });
+}
+
+std::size_t WetCloth::checked(int node) const {
+  if (node < 0 || static_cast<std::size_t>(node) >= m_water.size()) {
+    throw std::out_of_range("node = " + std::to_string(node) + ": must be in [0, " +
+                            std::to_string(m_water.size()) + ")");
+  }
+  return static_cast<std::size_t>(node);
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

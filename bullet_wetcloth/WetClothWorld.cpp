@@ -1,0 +1,144 @@
+#include "bullet_wetcloth/WetClothWorld.h"
+
+#include "bullet_wetcloth/PreTickHook.h"
+#include "bullet_wetcloth/Require.h"
+
+#include <BulletSoftBody/btDeformableBodySolver.h>
+#include <BulletSoftBody/btDeformableGravityForce.h>
+#include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
+#include <BulletSoftBody/btSoftMultiBodyDynamicsWorld.h>
+#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+// Null when the world is none of Bullet's three worlds with soft bodies.
+const btAlignedObjectArray<btSoftBody*>* softBodiesOf(const btDynamicsWorld& world) {
+  switch (world.getWorldType()) {
+    case BT_SOFT_RIGID_DYNAMICS_WORLD:
+      return &static_cast<const btSoftRigidDynamicsWorld&>(world).getSoftBodyArray();
+    case BT_SOFT_MULTIBODY_DYNAMICS_WORLD:
+      return &static_cast<const btSoftMultiBodyDynamicsWorld&>(world).getSoftBodyArray();
+    case BT_DEFORMABLE_MULTIBODY_DYNAMICS_WORLD:
+      return &static_cast<const btDeformableMultiBodyDynamicsWorld&>(world).getSoftBodyArray();
+    default: return nullptr;
+  }
+}
+
+bool isDeformable(const btDynamicsWorld& world) {
+  return world.getWorldType() == BT_DEFORMABLE_MULTIBODY_DYNAMICS_WORLD;
+}
+
+}  // namespace
+
+WetClothWorld::WetClothWorld(btDynamicsWorld& world, Hook hook)
+    : m_world(world), m_hook(hook), m_log([](const std::string& message) { std::clog << message << '\n'; }) {
+  if (!softBodiesOf(world)) {
+    rejectValue("world.getWorldType()", static_cast<int>(world.getWorldType()),
+                "that of a btSoftRigidDynamicsWorld, btSoftMultiBodyDynamicsWorld or "
+                "btDeformableMultiBodyDynamicsWorld");
+  }
+  PreTickHook::attach(*this, hook == Hook::preTick);
+}
+
+WetClothWorld::~WetClothWorld() {
+  PreTickHook::detach(*this);
+  for (const auto& cloth : m_cloths) {
+    if (isInWorld(cloth->m_body)) cloth->releaseEffects();
+  }
+}
+
+WetCloth& WetClothWorld::add(btSoftBody& body, const Fabric& fabric) {
+  requireValid(fabric);
+  if (!isInWorld(body)) rejectValue("body", static_cast<const void*>(&body), "a soft body of this world; add it first");
+  if (find(body)) rejectValue("body", static_cast<const void*>(&body), "added once; it already is");
+  m_cloths.push_back(std::unique_ptr<WetCloth>(new WetCloth(*this, body, fabric, isDeformable(m_world))));
+  return *m_cloths.back();
+}
+
+WetCloth& WetClothWorld::add(btSoftBody* body, const Fabric& fabric) {
+  if (!body) rejectValue("body", "null", "a soft body");
+  return add(*body, fabric);
+}
+
+void WetClothWorld::remove(btSoftBody& body) {
+  const auto wraps = [&](const std::unique_ptr<WetCloth>& cloth) { return &cloth->body() == &body; };
+  const auto position = std::find_if(m_cloths.begin(), m_cloths.end(), wraps);
+  if (position == m_cloths.end()) {
+    rejectValue("body", static_cast<const void*>(&body), "one that was added to this WetClothWorld");
+  }
+  (*position)->releaseEffects();
+  m_cloths.erase(position);
+}
+
+WetCloth* WetClothWorld::find(const btSoftBody& body) {
+  for (const auto& cloth : m_cloths) {
+    if (&cloth->body() == &body) return cloth.get();
+  }
+  return nullptr;
+}
+
+bool WetClothWorld::isHooked() const { return m_hook == Hook::preTick && PreTickHook::isInPlace(m_world); }
+
+void WetClothWorld::preTick(btScalar dt) {
+  if (!(std::isfinite(dt) && dt > 0)) return;
+  for (const auto& cloth : m_cloths) {
+    if (noticePresence(*cloth)) cloth->step(stepOf(cloth->m_body, dt));
+  }
+  m_time += static_cast<double>(dt);
+}
+
+// A body that left the world may have been deleted, so only its address is looked at.
+bool WetClothWorld::noticePresence(WetCloth& cloth) const {
+  const bool isPresent = isInWorld(cloth.m_body);
+  if (isPresent != cloth.m_wasPresent) {
+    cloth.m_wasPresent = isPresent;
+    log(isPresent ? "wetcloth: a body came back to the world; its effects run again"
+                  : "wetcloth: a body left the world; its effects rest until it comes back");
+  }
+  return isPresent;
+}
+
+Step WetClothWorld::stepOf(const btSoftBody& body, btScalar dt) const {
+  // The deformable world integrates with its own step and leaves the body's timescale aside.
+  const double timescale = isDeformable(m_world) ? 1 : static_cast<double>(body.m_cfg.timescale);
+  return {static_cast<double>(dt) * timescale, m_time, gravityOf(body)};
+}
+
+btVector3 WetClothWorld::gravityOf(const btSoftBody& body) const {
+  if (!isDeformable(m_world)) return body.m_worldInfo->m_gravity;
+  btVector3 gravity(0, 0, 0);
+  auto* solver = static_cast<btDeformableBodySolver*>(body.getSoftBodySolver());
+  if (!solver) return gravity;
+  const btAlignedObjectArray<btDeformableLagrangianForce*>& forces = *solver->getLagrangianForceArray();
+  for (int i = 0; i < forces.size(); ++i) {
+    if (forces[i]->getForceType() != BT_GRAVITY_FORCE) continue;
+    for (int k = 0; k < forces[i]->m_softBodies.size(); ++k) {
+      if (forces[i]->m_softBodies[k] == &body) gravity += static_cast<btDeformableGravityForce*>(forces[i])->m_gravity;
+    }
+  }
+  return gravity * body.m_gravityFactor;
+}
+
+bool WetClothWorld::isInWorld(const btSoftBody& body) const {
+  const btAlignedObjectArray<btSoftBody*>& bodies = *softBodiesOf(m_world);
+  for (int i = 0; i < bodies.size(); ++i) {
+    if (bodies[i] == &body) return true;
+  }
+  return false;
+}
+
+void WetClothWorld::setLog(std::function<void(const std::string&)> log) { m_log = std::move(log); }
+
+void WetClothWorld::log(const std::string& message) const {
+  if (m_log) m_log(message);
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "bullet_wetcloth/Fabric.h"
+#include "bullet_wetcloth/WetCloth.h"
+
+#include <BulletDynamics/Dynamics/btDynamicsWorld.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// How a WetClothWorld gets its turn in each substep.
+enum class Hook {
+  preTick,  ///< through Bullet's pre-tick callback, the application's own callback running first
+  manual    ///< the application calls WetClothWorld::preTick(dt) from its own pre-tick callback
+};
+
+/// Makes the cloths of one Bullet world able to get wet.
+///
+/// Works with btSoftRigidDynamicsWorld, btSoftMultiBodyDynamicsWorld and btDeformableMultiBodyDynamicsWorld. The
+/// application keeps its world, its bodies, its loop and its callbacks; nothing here deletes them. Destroy the
+/// WetClothWorld before the world, and remove() a cloth before its body is deleted. One object belongs to one
+/// thread at a time; different worlds may run in different threads.
+class WetClothWorld {
+ public:
+  /// Attaches to a world. An application's own pre-tick callback goes on being called, first, and the world's user
+  /// info is not touched. Throws std::invalid_argument when the world is of another kind or has a WetClothWorld.
+  explicit WetClothWorld(btDynamicsWorld& world, Hook hook = Hook::preTick);
+  /// Detaches: removes the cloths and puts the application's callback back.
+  ~WetClothWorld();
+  WetClothWorld(const WetClothWorld&) = delete;
+  WetClothWorld& operator=(const WetClothWorld&) = delete;
+
+  /// Wraps a soft body of this world; dry at first. Its free nodes' present masses are their dry masses.
+  /// Throws std::invalid_argument when the body is not in the world, was added before, has no nodes or a mass that
+  /// is not finite, or when a field of the fabric is out of range.
+  WetCloth& add(btSoftBody& body, const Fabric& fabric = Fabric::cotton());
+  /// The same; throws std::invalid_argument on null.
+  WetCloth& add(btSoftBody* body, const Fabric& fabric = Fabric::cotton());
+  /// Forgets a cloth. The body keeps its present (wet) masses. Throws std::invalid_argument when it is not known.
+  void remove(btSoftBody& body);
+  /// The cloth that wraps this body, or null.
+  WetCloth* find(const btSoftBody& body);
+  const std::vector<std::unique_ptr<WetCloth>>& cloths() const { return m_cloths; }
+
+  btDynamicsWorld& world() { return m_world; }
+
+  /// True while Bullet will call us: false after the application has overwritten the pre-tick callback.
+  bool isHooked() const;
+
+  /// One substep of `dt` seconds, before Bullet predicts. Only for Hook::manual. A dt that is not finite and
+  /// positive is ignored. Never throws.
+  void preTick(btScalar dt);
+
+  /// Simulated time since construction [s].
+  double time() const { return m_time; }
+
+  /// Takes the library's messages (a body left the world, was cut, ...). The default writes to std::clog; an empty
+  /// function silences them.
+  void setLog(std::function<void(const std::string&)> log);
+  void log(const std::string& message) const;
+
+ private:
+  bool isInWorld(const btSoftBody& body) const;
+  bool noticePresence(WetCloth& cloth) const;
+  Step stepOf(const btSoftBody& body, btScalar dt) const;
+  btVector3 gravityOf(const btSoftBody& body) const;
+
+  btDynamicsWorld& m_world;
+  Hook m_hook;
+  std::vector<std::unique_ptr<WetCloth>> m_cloths;
+  std::function<void(const std::string&)> m_log;
+  double m_time = 0;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

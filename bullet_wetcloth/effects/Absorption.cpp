@@ -1,0 +1,106 @@
+#include "bullet_wetcloth/effects/Absorption.h"
+
+#include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/WetCloth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+// An exponential never arrives. When less than this share of the capacity is missing the node takes it all, so that
+// a saturated cloth can idle; it is a tenth of the closeness to the closed form that we promise (1e-12).
+constexpr double kNegligible = 1e-13;
+
+}  // namespace
+
+double exponentialShare(double rate) { return -std::expm1(-rate); }
+
+double eulerShare(double rate) { return std::min(rate, 1.0); }
+
+Absorption::Parameters Absorption::Parameters::paper() {
+  Parameters parameters;
+  parameters.law = Law::ramp;
+  parameters.conservesMomentum = false;
+  return parameters;
+}
+
+Absorption::Absorption(Parameters parameters) : m_parameters(std::move(parameters)) {
+  m_parameters.exposure.requireValid("Absorption.exposure");
+  requirePositive("Absorption.rampDuration", m_parameters.rampDuration);
+  static const char* const axes[] = {"x", "y", "z"};
+  for (int axis = 0; axis < 3; ++axis) {
+    requireFinite(std::string("Absorption.waterVelocity.") + axes[axis],
+                  static_cast<double>(m_parameters.waterVelocity[axis]));
+  }
+}
+
+void Absorption::setExposure(Exposure exposure) {
+  exposure.requireValid("Absorption.exposure");
+  if (!m_carry.empty()) exposure.requireSize("Absorption.exposure", m_carry.size());
+  m_parameters.exposure = std::move(exposure);
+  m_settled = false;
+}
+
+void Absorption::attach(WetCloth& cloth) {
+  const bool firstTime = m_carry.empty();
+  if (firstTime) m_parameters.exposure.requireSize("Absorption.exposure", cloth.water().size());
+  m_carry.assign(cloth.water().size(), 0);
+  m_timeConstant = cloth.fabric().timeConstant;
+  m_settled = false;
+}
+
+void Absorption::apply(WetCloth& cloth, const Step& step) {
+  if (m_settled && m_settledRevision == cloth.water().revision()) return;
+  const Exposure& exposure = m_parameters.exposure;
+  const bool isUniform = !exposure.isFunction() && !exposure.isPerNode();
+  const double uniformShare = isUniform ? share(exposure.at(0, btVector3(0, 0, 0), btVector3(0, 0, 0)), step) : 0;
+  bool settled = true;
+  for (std::size_t i = 0; i < m_carry.size(); ++i) {
+    const btSoftBody::Node& node = cloth.body().m_nodes[static_cast<int>(i)];
+    const double nodeShare = isUniform ? uniformShare : share(exposure.at(i, node.m_x, node.m_n), step);
+    const bool isFull = takeUp(cloth, i, nodeShare);
+    // A function may expose the node later; anything else stays as it is.
+    settled = settled && (isFull || (nodeShare == 0 && !exposure.isFunction()));
+  }
+  m_nodesVisited += static_cast<long long>(m_carry.size());
+  m_settled = settled;
+  m_settledRevision = cloth.water().revision();
+}
+
+double Absorption::share(double exposure, const Step& step) const {
+  switch (m_parameters.law) {
+    case Law::forwardEuler: return eulerShare(exposure * step.dt / m_timeConstant);
+    case Law::ramp: return exposure * step.dt / m_parameters.rampDuration;
+    case Law::exponential: break;
+  }
+  return exponentialShare(exposure * step.dt / m_timeConstant);
+}
+
+// Returns whether the node is full.
+bool Absorption::takeUp(WetCloth& cloth, std::size_t node, double share) {
+  Water& water = cloth.water();
+  const double capacity = water.capacity(node);
+  const double room = capacity - water.held(node) - m_carry[node];
+  if (!(room > 0)) return true;
+  double taken = share * (m_parameters.law == Law::ramp ? capacity : room);
+  const bool fills = room - taken <= kNegligible * capacity;
+  if (fills) taken = room;
+  if (!(taken > 0)) return false;
+
+  // Many small portions would be lost to rounding against a large amount of water; the carry keeps them.
+  const double before = water.held(node);
+  const btVector3& arriving = m_parameters.conservesMomentum
+                                  ? m_parameters.waterVelocity
+                                  : cloth.body().m_nodes[static_cast<int>(node)].m_v;
+  water.absorb(node, taken + m_carry[node], arriving.x(), arriving.y(), arriving.z());
+  m_carry[node] = fills ? 0 : m_carry[node] + taken - (water.held(node) - before);
+  return fills;
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

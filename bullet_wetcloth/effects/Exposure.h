@@ -1,0 +1,47 @@
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+
+#include <LinearMath/btVector3.h>
+
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// How far each node is in contact with water, in [0, 1]: a constant, an array with one value per node, or a
+/// function of the node's position and unit normal.
+class Exposure {
+ public:
+  using Function = std::function<double(const btVector3& position, const btVector3& normal)>;
+
+  Exposure(double everywhere) : m_constant(everywhere) {}
+  Exposure(std::vector<double> perNode) : m_perNode(std::move(perNode)) {}
+  Exposure(Function function) : m_function(std::move(function)) {}
+  template <class F, class = decltype(std::declval<F>()(btVector3(), btVector3()))>
+  Exposure(F function) : m_function(std::move(function)) {}
+
+  bool isFunction() const { return static_cast<bool>(m_function); }
+  bool isPerNode() const { return !m_perNode.empty(); }
+
+  /// A function's value is clamped to [0, 1], and NaN counts as 0. Nodes beyond the end of an array (made when the
+  /// body was cut) have exposure 0.
+  double at(std::size_t node, const btVector3& position, const btVector3& normal) const;
+
+  /// Throws std::invalid_argument naming `field` and the value when a constant or an array's value is not in
+  /// [0, 1] or not finite.
+  void requireValid(const char* field) const;
+  /// Throws std::invalid_argument when an array has not one value per node.
+  void requireSize(const char* field, std::size_t nodes) const;
+
+ private:
+  double m_constant = 0;
+  std::vector<double> m_perNode;
+  Function m_function;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,185 @@
+#include "bullet_wetcloth/effects/HookeSprings.h"
+
+#include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/effects/SpringSolver.h"
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+// Bullet scales a link's correction by its material's stiffness. This little leaves a link in place but powerless;
+// exactly zero would make Bullet divide by it.
+constexpr btScalar kPowerless = btScalar(1e-12);
+
+}  // namespace
+
+btVector3 hookeForce(const btVector3& a, const btVector3& b, double restLength, double stiffness) {
+  const btVector3 along = b - a;
+  const double length = static_cast<double>(along.length());
+  if (!(length > 0)) return btVector3(0, 0, 0);
+  return along * static_cast<btScalar>(stiffness * (length - restLength) / length);
+}
+
+HookeSprings::HookeSprings(Parameters parameters)
+    : m_parameters(std::move(parameters)), m_solver(std::make_unique<SpringSolver>()) {
+  requirePositive("HookeSprings.stiffness", m_parameters.stiffness);
+  requireNotNegative("HookeSprings.bendingStiffness", m_parameters.bendingStiffness);
+  for (std::size_t k = 0; k < m_parameters.perLink.size(); ++k) {
+    requireNotNegative("HookeSprings.perLink[" + std::to_string(k) + "]", m_parameters.perLink[k]);
+  }
+  if (m_parameters.iterations < 1) rejectValue("HookeSprings.iterations", m_parameters.iterations, ">= 1");
+}
+
+HookeSprings::~HookeSprings() = default;
+
+long long HookeSprings::factorizations() const { return m_solver->factorizations(); }
+
+void HookeSprings::attach(WetCloth& cloth) {
+  btSoftBody& body = cloth.body();
+  const std::size_t links = static_cast<std::size_t>(body.m_links.size());
+  if (links == 0) rejectValue("HookeSprings: body.m_links.size()", 0, "at least 1: the springs are the body's links");
+  const bool isFirst = !m_powerless;
+  if (isFirst && !m_parameters.perLink.empty() && m_parameters.perLink.size() != links) {
+    rejectValue("HookeSprings.perLink.size()", m_parameters.perLink.size(),
+                "the number of the body's links, " + std::to_string(links));
+  }
+  disableLinks(cloth);
+  m_springs.resize(links);
+  for (std::size_t k = 0; k < links; ++k) {
+    const btSoftBody::Link& link = body.m_links[static_cast<int>(k)];
+    m_springs[k].a = static_cast<int>(link.m_n[0] - &body.m_nodes[0]);
+    m_springs[k].b = static_cast<int>(link.m_n[1] - &body.m_nodes[0]);
+    m_springs[k].stiffness = stiffnessOf(link, k);
+  }
+  m_nodes.resize(static_cast<std::size_t>(body.m_nodes.size()));
+  m_solver->reset(m_nodes.size());
+}
+
+double HookeSprings::stiffnessOf(const btSoftBody::Link& link, std::size_t index) const {
+  if (index < m_parameters.perLink.size()) return m_parameters.perLink[index];
+  return link.m_bbending ? m_parameters.bendingStiffness : m_parameters.stiffness;
+}
+
+// A link that was cut copies its neighbour's material, ours: it gets the body's first one back in the end.
+void HookeSprings::disableLinks(WetCloth& cloth) {
+  btSoftBody& body = cloth.body();
+  if (!m_powerless) {
+    m_powerless = body.appendMaterial();
+    m_powerless->m_kLST = kPowerless;
+  }
+  for (int k = 0; k < body.m_links.size(); ++k) {
+    btSoftBody::Material*& material = body.m_links[k].m_material;
+    const bool isNew = static_cast<std::size_t>(k) >= m_ownMaterials.size();
+    if (isNew) m_ownMaterials.push_back(material == m_powerless ? body.m_materials[0] : material);
+    material = m_powerless;
+  }
+  cloth.masses().refreshLinks();
+}
+
+void HookeSprings::detach(WetCloth& cloth) {
+  btSoftBody& body = cloth.body();
+  for (int k = 0; k < body.m_links.size(); ++k) {
+    const std::size_t index = static_cast<std::size_t>(k);
+    body.m_links[k].m_material = index < m_ownMaterials.size() ? m_ownMaterials[index] : body.m_materials[0];
+  }
+  cloth.masses().refreshLinks();
+}
+
+void HookeSprings::apply(WetCloth& cloth, const Step& step) {
+  gather(cloth.body(), step);
+  followAnchors(cloth.body(), step);
+  m_solver->solve(m_springs, m_nodes, step.dt, m_parameters.iterations);
+  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+    if (m_nodes[i].isFixed) continue;
+    const std::array<double, 3>& change = m_nodes[i].velocityChange;
+    cloth.push(cloth.body().m_nodes[static_cast<int>(i)],
+               btVector3(static_cast<btScalar>(change[0]), static_cast<btScalar>(change[1]),
+                         static_cast<btScalar>(change[2])));
+  }
+  pullAnchors(cloth.body(), step);
+}
+
+// Rest lengths are read in every step: Bullet resets them when a body was cut, and an application may change them.
+void HookeSprings::gather(const btSoftBody& body, const Step& step) {
+  for (std::size_t k = 0; k < m_springs.size(); ++k) {
+    m_springs[k].restLength = static_cast<double>(body.m_links[static_cast<int>(k)].m_rl);
+  }
+  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+    const btSoftBody::Node& node = body.m_nodes[static_cast<int>(i)];
+    SpringNode& state = m_nodes[i];
+    state.isFixed = !(node.m_im > 0);
+    state.mass = state.isFixed ? 0 : 1 / static_cast<double>(node.m_im);
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::size_t c = static_cast<std::size_t>(axis);
+      state.position[c] = static_cast<double>(node.m_x[axis]);
+      state.velocity[c] = static_cast<double>(node.m_v[axis]);
+      state.acceleration[c] = state.isFixed ? 0 : static_cast<double>(step.gravity[axis]);
+    }
+  }
+}
+
+namespace {
+
+struct AnchorPoint {
+  const btSoftBody::Node* node;
+  btRigidBody* rigid;
+  btVector3 arm;
+};
+
+// Bullet keeps the anchors of its position-based and of its deformable worlds in two lists.
+template <class Visit>
+void forEachAnchor(btSoftBody& body, Visit visit) {
+  for (int k = 0; k < body.m_anchors.size(); ++k) {
+    const btSoftBody::Anchor& anchor = body.m_anchors[k];
+    const btTransform& transform = anchor.m_body->getWorldTransform();
+    visit(AnchorPoint{anchor.m_node, anchor.m_body, transform.getBasis() * anchor.m_local});
+  }
+  for (int k = 0; k < body.m_deformableAnchors.size(); ++k) {
+    btSoftBody::DeformableNodeRigidAnchor& anchor = body.m_deformableAnchors[k];
+    btRigidBody* rigid = const_cast<btRigidBody*>(btRigidBody::upcast(anchor.m_cti.m_colObj));
+    if (!rigid) continue;
+    visit(AnchorPoint{anchor.m_node, rigid, rigid->getWorldTransform().getBasis() * anchor.m_local});
+  }
+}
+
+}  // namespace
+
+// Bullet ties an anchored node to its rigid body after us. If the springs moved the node freely, the tie would only
+// ever carry that one node's momentum, and the cloth would hang far too low.
+void HookeSprings::followAnchors(btSoftBody& body, const Step& step) {
+  forEachAnchor(body, [&](const AnchorPoint& anchor) {
+    SpringNode& state = m_nodes[static_cast<std::size_t>(anchor.node - &body.m_nodes[0])];
+    const btVector3 target = anchor.rigid->getCenterOfMassPosition() + anchor.arm;
+    const btVector3 velocity = anchor.rigid->getVelocityInLocalPoint(anchor.arm);
+    state.isFixed = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::size_t c = static_cast<std::size_t>(axis);
+      state.velocity[c] = (static_cast<double>(target[axis]) - state.position[c]) / step.dt +
+                          static_cast<double>(velocity[axis]);
+    }
+  });
+}
+
+void HookeSprings::pullAnchors(btSoftBody& body, const Step& step) {
+  forEachAnchor(body, [&](const AnchorPoint& anchor) {
+    if (anchor.rigid->isStaticOrKinematicObject()) return;
+    const std::array<double, 3> pull =
+        m_solver->springForce(m_springs, static_cast<std::size_t>(anchor.node - &body.m_nodes[0]));
+    const btVector3 force(static_cast<btScalar>(pull[0]), static_cast<btScalar>(pull[1]),
+                          static_cast<btScalar>(pull[2]));
+    anchor.rigid->activate();
+    anchor.rigid->applyImpulse(force * static_cast<btScalar>(step.dt), anchor.arm);
+  });
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "bullet_wetcloth/Effect.h"
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+class SpringSolver;
+struct Spring;
+struct SpringNode;
+
+/// Force of a spring on its end `a` [N] (Basori et al. 2017, Eq. 5 and 6 with the unit vector that Eq. 6 lost):
+/// K (|b - a| - l0) along b - a. Zero when the ends coincide.
+/// @param restLength l0 [m]; @param stiffness K [N/m]
+btVector3 hookeForce(const btVector3& a, const btVector3& b, double restLength, double stiffness);
+
+/// Makes the links true springs, so that a cloth stretches under its weight, wet more than dry.
+///
+/// Bullet's position-based links do not stretch under a uniform change of mass. This takes their place: the links
+/// stay where they are (collision, drawing and cutting go on using them) but stop pulling, and the springs' forces
+/// enter as velocity changes by backward Euler, one sparse factorisation for many steps (Liu et al. 2013, "Fast
+/// simulation of mass-spring systems", with the true masses and forces in every iteration). Stable for any stiffness
+/// and step. Anchored nodes follow their rigid body, which feels the pull.
+///
+/// Works in all three worlds. In the deformable world Bullet has springs of its own (btDeformableMassSpringForce):
+/// use those or this, not both.
+class HookeSprings : public Effect {
+ public:
+  struct Parameters {
+    double stiffness = 1000;       ///< K of the links [N/m], (0, inf)
+    double bendingStiffness = 10;  ///< K of links that are marked as bending (flexion springs) [N/m], [0, inf)
+    /// K of each link [N/m], in the order of btSoftBody::m_links; empty: the two values above.
+    std::vector<double> perLink;
+    int iterations = 4;  ///< per substep, >= 1; more follow fast motion more closely, a cloth at rest needs no more
+  };
+
+  /// Throws std::invalid_argument naming the field and the value.
+  explicit HookeSprings(Parameters parameters);
+  ~HookeSprings() override;
+
+  const Parameters& parameters() const { return m_parameters; }
+
+  const char* name() const override { return "HookeSprings"; }
+  Stage stage() const override { return Stage::elasticity; }
+  /// Throws std::invalid_argument when the body has no links, or `perLink` has not one value per link.
+  void attach(WetCloth& cloth) override;
+  void detach(WetCloth& cloth) override;
+  void apply(WetCloth& cloth, const Step& step) override;
+
+  /// How often the matrix was factored: for tests that count work.
+  long long factorizations() const;
+
+ private:
+  double stiffnessOf(const btSoftBody::Link& link, std::size_t index) const;
+  void disableLinks(WetCloth& cloth);
+  void gather(const btSoftBody& body, const Step& step);
+  void followAnchors(btSoftBody& body, const Step& step);
+  void pullAnchors(btSoftBody& body, const Step& step);
+
+  Parameters m_parameters;
+  std::unique_ptr<SpringSolver> m_solver;  // behind a pointer, so that Eigen stays out of this header
+  std::vector<Spring> m_springs;
+  std::vector<SpringNode> m_nodes;
+  btSoftBody::Material* m_powerless = nullptr;        // appended to the body, which owns it
+  std::vector<btSoftBody::Material*> m_ownMaterials;  // of each link before us
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

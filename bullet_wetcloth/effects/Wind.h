@@ -1,0 +1,100 @@
+#pragma once
+
+#include "bullet_wetcloth/Effect.h"
+#include "bullet_wetcloth/effects/WindField.h"
+
+#include <array>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// The paper's wind force on a triangle (Basori et al. 2017, Fig. 6): n_hat (n_hat . wind), which has neither an
+/// area nor the cloth's own motion in it. Zero for a triangle without area.
+btVector3 paperWindForce(const btVector3& a, const btVector3& b, const btVector3& c, const btVector3& wind);
+
+/// Air's force on a triangle [N]: pressure x area along the normal, by the speed relative to the moving cloth,
+/// F = 1/2 rho C_d A |u_n| u_n n_hat + 1/2 rho C_f A |u_t| u_t,  u = wind - velocity split into normal and tangent.
+/// Zero for a triangle without area.
+/// @param velocity  the triangle's own [m/s]
+/// @param airDensity rho [kg/m^3]; @param dragCoefficient C_d [-]; @param skinFriction C_f [-]
+btVector3 quadraticWindForce(const btVector3& a, const btVector3& b, const btVector3& c, const btVector3& velocity,
+                             const btVector3& wind, double airDensity, double dragCoefficient,
+                             double skinFriction);
+
+/// The same with a force linear in the relative speed [N]: F = k A u_n n_hat, k = linearDrag [N s/m^3].
+btVector3 linearWindForce(const btVector3& a, const btVector3& b, const btVector3& c, const btVector3& velocity,
+                          const btVector3& wind, double linearDrag);
+
+/// Wind and air resistance on the cloth's triangles. Air at rest is wind too: Wind({btVector3(0, 0, 0)}) is drag.
+///
+/// Stands on its own beside Bullet's aerodynamics: a body whose m_cfg.kDG or kLF is set feels both; set them to 0
+/// (Bullet's default) to feel only this.
+class Wind : public Effect {
+ public:
+  enum class Law {
+    quadratic,  ///< 1/2 rho C_d A |u_n| u_n, a third to each corner
+    linear,     ///< linearDrag A u_n, a third to each corner
+    paper       ///< Fig. 6: n_hat (n_hat . wind) x paperForce, the whole force to each corner
+  };
+  enum class Integration {
+    semiImplicit,  ///< stable at any speed and step: the air never pushes a node past its own velocity
+    explicitEuler  ///< for the comparison; overshoots on light nodes. Law::paper is always explicit
+  };
+
+  struct Parameters {
+    /// Velocity of the air [m/s]: a constant, or a function of position and time.
+    WindField velocity;
+    Law law = Law::quadratic;
+    double airDensity = 1.2;       ///< rho [kg/m^3], >= 0
+    double dragCoefficient = 1.2;  ///< C_d of a flat plate across the stream [-], >= 0
+    double skinFriction = 0;       ///< C_f along the surface [-], >= 0
+    double linearDrag = 0.256;     ///< k of Law::linear [N s/m^3], >= 0; 0.150 kg/m^2 / 0.585 s, see docs/paper.md
+    /// Newtons per unit of the paper's wind vector, >= 0. The paper counts mass in grams, so its unit of force is
+    /// 1 g m/s^2.
+    double paperForce = 1e-3;
+    Integration integration = Integration::semiImplicit;
+  };
+
+  /// Throws std::invalid_argument naming the field and the value.
+  explicit Wind(Parameters parameters);
+
+  const Parameters& parameters() const { return m_parameters; }
+  /// Throws std::invalid_argument when a constant is not finite, and then nothing changes.
+  void setVelocity(WindField velocity);
+
+  const char* name() const override { return "Wind"; }
+  Stage stage() const override { return Stage::forces; }
+  /// Throws std::invalid_argument when the body has no faces.
+  void attach(WetCloth& cloth) override;
+  void apply(WetCloth& cloth, const Step& step) override;
+
+  /// Force of the air on the whole cloth in the last step [N].
+  btVector3 totalForce() const { return m_totalForce; }
+
+ private:
+  // A node as the face loop needs it, packed: Bullet's own nodes are several cache lines each.
+  struct NodeState {
+    btScalar position[3];
+    btScalar velocity[3];       // as predicted, gravity's share of the step included
+    btScalar specificArea;      // area over mass [m^2/kg], 0 when pinned
+    btScalar drag;              // force per relative speed, summed over the triangles [kg/s]
+    btScalar force[3];          // [N]
+    btScalar inverseMass;
+  };
+
+  void gather(const WetCloth& cloth, const Step& step);
+  template <class TriangleLaw>
+  void accumulate(const Step& step, const TriangleLaw& law);
+  void accumulatePaper(const Step& step);
+  void scatter(WetCloth& cloth, const Step& step);
+
+  Parameters m_parameters;
+  std::vector<NodeState> m_nodes;
+  std::vector<btScalar> m_nodeAreas;            // at rest [m^2]
+  std::vector<std::array<int, 3>> m_triangles;  // node indices
+  btVector3 m_totalForce = btVector3(0, 0, 0);
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

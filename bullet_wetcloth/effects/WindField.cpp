@@ -1,0 +1,28 @@
+#include "bullet_wetcloth/effects/WindField.h"
+
+#include "bullet_wetcloth/Require.h"
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+bool isFinite(const btVector3& v) { return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z()); }
+
+}  // namespace
+
+btVector3 WindField::at(const btVector3& position, double time) const {
+  if (!m_function) return m_constant;
+  const btVector3 value = m_function(position, time);
+  return isFinite(value) ? value : btVector3(0, 0, 0);
+}
+
+void WindField::requireValid(const char* field) const {
+  static const char* const axes[] = {".x", ".y", ".z"};
+  for (int axis = 0; axis < 3; ++axis) {
+    requireFinite(std::string(field) + axes[axis], static_cast<double>(m_constant[axis]));
+  }
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

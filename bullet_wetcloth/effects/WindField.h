@@ -1,0 +1,39 @@
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+
+#include <LinearMath/btVector3.h>
+
+#include <functional>
+#include <utility>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Velocity of the air [m/s]: the same everywhere, or a function of position [m] and time [s].
+class WindField {
+ public:
+  using Function = std::function<btVector3(const btVector3& position, double time)>;
+
+  WindField() = default;
+  WindField(const btVector3& everywhere) : m_constant(everywhere) {}
+  WindField(Function function) : m_function(std::move(function)) {}
+  template <class F, class = decltype(std::declval<F>()(btVector3(), double()))>
+  WindField(F function) : m_function(std::move(function)) {}
+
+  bool isFunction() const { return static_cast<bool>(m_function); }
+  const btVector3& constant() const { return m_constant; }
+
+  /// A function's value that is not finite counts as no wind.
+  btVector3 at(const btVector3& position, double time) const;
+
+  /// Throws std::invalid_argument naming `field` and the value when a constant is not finite.
+  void requireValid(const char* field) const;
+
+ private:
+  btVector3 m_constant = btVector3(0, 0, 0);
+  Function m_function;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
