@@ -31,8 +31,7 @@ double sum(const std::vector<double>& values) {
 void requireMasses(const btSoftBody& body) {
   if (body.m_nodes.size() == 0) rejectValue("body.m_nodes.size()", 0, "at least 1");
   for (int i = 0; i < body.m_nodes.size(); ++i) {
-    requireNotNegative("body.m_nodes[" + std::to_string(i) + "].m_im",
-                       static_cast<double>(body.m_nodes[i].m_im));
+    requireNotNegative("body.m_nodes[" + std::to_string(i) + "].m_im", static_cast<double>(body.m_nodes[i].m_im));
   }
 }
 

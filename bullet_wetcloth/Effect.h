@@ -44,6 +44,13 @@ class Effect {
   /// The effect is about to be removed: gives back what it changed in the body.
   virtual void detach(WetCloth& cloth) { static_cast<void>(cloth); }
   virtual void apply(WetCloth& cloth, const Step& step) = 0;
+  /// Asked instead of apply() at the stages `forces` and `elasticity` while Bullet lets the body sleep (it does so in
+  /// the deformable world only): true wakes the body.
+  virtual bool wakes(const WetCloth& cloth, const Step& step) const {
+    static_cast<void>(cloth);
+    static_cast<void>(step);
+    return false;
+  }
 
  protected:
   Effect() = default;

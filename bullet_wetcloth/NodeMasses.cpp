@@ -39,6 +39,7 @@ void NodeMasses::commit(Water& water) {
 }
 
 bool NodeMasses::writeNodes(Water& water) {
+  const bool waterLeft = water.leftSinceCommit();
   bool changed = false;
   for (std::size_t i = 0; i < m_inverseMass.size(); ++i) {
     btSoftBody::Node& node = m_body.m_nodes[static_cast<int>(i)];
@@ -48,23 +49,26 @@ bool NodeMasses::writeNodes(Water& water) {
       changed = true;
     }
     if (node.m_im == 0) continue;
-    if (water.arrival(i).mass > 0) mixMomentum(node, water.arrival(i));
-    const btScalar inverseMass = static_cast<btScalar>(1 / water.totalMass(i));
-    if (inverseMass != node.m_im) {
-      node.m_im = m_inverseMass[i] = inverseMass;
-      changed = true;
+    const double inverseMass = 1 / water.totalMass(i);
+    const Water::Arrival& arrival = water.arrival(i);
+    if (arrival.mass > 0) {
+      // Arrivals meet the mass that the node had before anything left it.
+      const double inverse = waterLeft ? 1 / (1 / static_cast<double>(node.m_im) + arrival.mass) : inverseMass;
+      mixMomentum(node, arrival, inverse);
     }
+    const btScalar rounded = static_cast<btScalar>(inverseMass);
+    changed = changed || rounded != node.m_im;
+    node.m_im = m_inverseMass[i] = rounded;
   }
   return changed;
 }
 
 // What leaves takes the node's own velocity with it, so only arrivals change the velocity: v' - v = (p - dm v) /
 // (m + dm), with m the mass before.
-void NodeMasses::mixMomentum(btSoftBody::Node& node, const Water::Arrival& arrival) const {
-  const double inverse = 1 / (1 / static_cast<double>(node.m_im) + arrival.mass);
+void NodeMasses::mixMomentum(btSoftBody::Node& node, const Water::Arrival& arrival, double inverseMass) const {
   const auto change = [&](int axis) {
     const double velocity = static_cast<double>(node.m_v[axis]);
-    return static_cast<btScalar>((arrival.momentum[axis] - arrival.mass * velocity) * inverse);
+    return static_cast<btScalar>((arrival.momentum[axis] - arrival.mass * velocity) * inverseMass);
   };
   const btVector3 deltaVelocity(change(0), change(1), change(2));
   node.m_v += deltaVelocity;

@@ -36,7 +36,7 @@ class NodeMasses {
 
  private:
   bool writeNodes(Water& water);
-  void mixMomentum(btSoftBody::Node& node, const Water::Arrival& arrival) const;
+  void mixMomentum(btSoftBody::Node& node, const Water::Arrival& arrival, double inverseMass) const;
   void refreshClusters();
   void refreshPose();
   void refreshDeformable();

@@ -14,9 +14,7 @@ namespace {
 // m_internalPreTickCallback is protected and has no getter; a pointer to member named through a derived class may
 // reach it.
 struct PreTickSlot : btDynamicsWorld {
-  static btInternalTickCallback& of(btDynamicsWorld& world) {
-    return world.*(&PreTickSlot::m_internalPreTickCallback);
-  }
+  static btInternalTickCallback& of(btDynamicsWorld& world) { return world.*(&PreTickSlot::m_internalPreTickCallback); }
 };
 
 struct Entry {

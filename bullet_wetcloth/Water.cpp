@@ -19,7 +19,9 @@ double sum(const std::vector<double>& values) {
 Ledger Water::ledger() const {
   Ledger ledger;
   ledger.initial = m_initial.value();
-  ledger.absorbed = m_absorbed.value();
+  CompensatedSum absorbed = m_absorbed;
+  for (const double part : m_newlyAbsorbed) absorbed.add(part);
+  ledger.absorbed = absorbed.value();
   ledger.dripped = m_dripped.value();
   ledger.evaporated = m_evaporated.value();
   ledger.held = sum(m_held);
@@ -36,6 +38,7 @@ void Water::move(std::size_t from, std::size_t to, double mass, double vx, doubl
   arrival.momentum[0] += moved * vx;
   arrival.momentum[1] += moved * vy;
   arrival.momentum[2] += moved * vz;
+  m_leftSinceCommit = true;
   markMoved();
 }
 
@@ -46,13 +49,16 @@ double Water::take(std::size_t node, double mass, CompensatedSum& account) {
   m_held[node] = before - wanted;
   const double left = before - m_held[node];
   account.add(left);
+  m_leftSinceCommit = true;
   markMoved();
   return left;
 }
 
 void Water::clearArrivals() {
   std::fill(m_arrivals.begin(), m_arrivals.end(), Arrival());
-  m_movedSinceCommit = false;
+  for (const double part : m_newlyAbsorbed) m_absorbed.add(part);
+  m_newlyAbsorbed.fill(0);
+  m_movedSinceCommit = m_leftSinceCommit = false;
 }
 
 void Water::reset(std::vector<double> dryMass, double capacityRatio) {
@@ -61,8 +67,9 @@ void Water::reset(std::vector<double> dryMass, double capacityRatio) {
   m_arrivals.assign(m_dryMass.size(), Arrival());
   m_capacityRatio = capacityRatio;
   m_initial = m_absorbed = m_dripped = m_evaporated = CompensatedSum();
+  m_newlyAbsorbed.fill(0);
   markMoved();
-  m_movedSinceCommit = false;
+  m_movedSinceCommit = m_leftSinceCommit = false;
 }
 
 void Water::setHeld(const std::vector<double>& held) {

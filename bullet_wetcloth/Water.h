@@ -2,6 +2,7 @@
 
 #include "bullet_wetcloth/Precision.h"
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -67,7 +68,7 @@ class Water {
     const double before = m_held[node];
     m_held[node] = before + mass;
     const double arrived = m_held[node] - before;  // what the rounded sum really gained, so the ledger stays exact
-    m_absorbed.add(arrived);
+    m_newlyAbsorbed[node % kLanes] += arrived;
     Arrival& arrival = m_arrivals[node];
     arrival.mass += arrived;
     arrival.momentum[0] += arrived * vx;
@@ -89,6 +90,8 @@ class Water {
     double momentum[3] = {0, 0, 0};
   };
   bool movedSinceCommit() const { return m_movedSinceCommit; }
+  /// Whether water left a node, or moved between nodes, since the last commit.
+  bool leftSinceCommit() const { return m_leftSinceCommit; }
   const Arrival& arrival(std::size_t node) const { return m_arrivals[node]; }
   void clearArrivals();
 
@@ -104,6 +107,9 @@ class Water {
   void replaceNodes(std::vector<double> dryMass, std::vector<double> held);
 
  private:
+  // Consecutive nodes are summed in turn, so that no addition waits for the one before.
+  static constexpr std::size_t kLanes = 8;
+
   double take(std::size_t node, double mass, CompensatedSum& account);
   void markMoved() {
     m_movedSinceCommit = true;
@@ -115,11 +121,13 @@ class Water {
   std::vector<Arrival> m_arrivals;
   double m_capacityRatio = 0;
   CompensatedSum m_initial;
-  CompensatedSum m_absorbed;
+  CompensatedSum m_absorbed;                        // up to the last commit
+  std::array<double, kLanes> m_newlyAbsorbed = {};  // since then
   CompensatedSum m_dripped;
   CompensatedSum m_evaporated;
   unsigned long long m_revision = 0;
   bool m_movedSinceCommit = false;
+  bool m_leftSinceCommit = false;
 };
 
 }  // namespace WETCLOTH_PRECISION

@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/WetClothWorld.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -13,11 +14,7 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 WetCloth::WetCloth(WetClothWorld& world, btSoftBody& body, Fabric fabric, bool deformable)
-    : m_world(world),
-      m_body(body),
-      m_fabric(std::move(fabric)),
-      m_deformable(deformable),
-      m_masses(body, deformable) {
+    : m_world(world), m_body(body), m_fabric(std::move(fabric)), m_deformable(deformable), m_masses(body, deformable) {
   m_water.reset(dryMasses(m_body, m_fabric.arealDensity), m_fabric.capacity);
   m_masses.remember();
   rememberBody();
@@ -104,7 +101,29 @@ void WetCloth::step(const Step& step) {
   const auto run = [&](Effect& effect) { effect.apply(*this, step); };
   while (next < m_effects.size() && m_effects[next]->stage() < Stage::forces) guarded(next, run);
   if (m_water.movedSinceCommit()) m_masses.commit(m_water);
+  if (!isAwake(step)) return;
   while (next < m_effects.size()) guarded(next, run);
+}
+
+// Bullet adds no gravity to a sleeping body, and what we would push against it would move the cloth all the same. So
+// forces rest, too; but a cloth whose mass has changed by 1 % since it fell asleep hangs differently, and wakes.
+bool WetCloth::isAwake(const Step& step) {
+  if (m_body.isActive()) {
+    m_massAsleep = 0;
+    return true;
+  }
+  const double mass = totalMass();
+  if (m_massAsleep == 0) m_massAsleep = mass;
+  bool wakes = std::fabs(mass - m_massAsleep) > 0.01 * m_massAsleep;
+  for (const auto& effect : m_effects) wakes = wakes || effect->wakes(*this, step);
+  if (wakes) m_body.activate(true);
+  return wakes;
+}
+
+double WetCloth::totalMass() const {
+  double mass = 0;
+  for (std::size_t i = 0; i < m_water.size(); ++i) mass += m_water.totalMass(i);
+  return mass;
 }
 
 void WetCloth::releaseEffects() {
@@ -137,8 +156,8 @@ void WetCloth::adaptToBody() {
 
 std::size_t WetCloth::checked(int node) const {
   if (node < 0 || static_cast<std::size_t>(node) >= m_water.size()) {
-    throw std::out_of_range("node = " + std::to_string(node) + ": must be in [0, " +
-                            std::to_string(m_water.size()) + ")");
+    throw std::out_of_range("node = " + std::to_string(node) + ": must be in [0, " + std::to_string(m_water.size()) +
+                            ")");
   }
   return static_cast<std::size_t>(node);
 }

@@ -61,6 +61,8 @@ class WetCloth {
   double dryMass(int node) const;
   /// Water that a node holds at saturation [kg]. Throws std::out_of_range.
   double capacity(int node) const;
+  /// Dry mass and water of all nodes, pinned ones included [kg].
+  double totalMass() const;
   /// Water of the whole cloth over what it can hold.
   double meanSaturation() const;
   Ledger ledger() const { return m_water.ledger(); }
@@ -105,6 +107,7 @@ class WetCloth {
 
   /// One substep: sources, transport, losses, material, commit, forces, elasticity. Never throws.
   void step(const Step& step);
+  bool isAwake(const Step& step);
   void adaptToBody();
   void releaseEffects();
   template <class Action>
@@ -120,6 +123,7 @@ class WetCloth {
   Water m_water;
   NodeMasses m_masses;
   std::vector<std::unique_ptr<Effect>> m_effects;
+  double m_massAsleep = 0;  // when Bullet let the body sleep, 0 while it is awake [kg]
   bool m_wasPresent = true;
   int m_nodeCount = 0;
   int m_linkCount = 0;

@@ -21,8 +21,7 @@ namespace {
 // Null when the world is none of Bullet's three worlds with soft bodies.
 const btAlignedObjectArray<btSoftBody*>* softBodiesOf(const btDynamicsWorld& world) {
   switch (world.getWorldType()) {
-    case BT_SOFT_RIGID_DYNAMICS_WORLD:
-      return &static_cast<const btSoftRigidDynamicsWorld&>(world).getSoftBodyArray();
+    case BT_SOFT_RIGID_DYNAMICS_WORLD: return &static_cast<const btSoftRigidDynamicsWorld&>(world).getSoftBodyArray();
     case BT_SOFT_MULTIBODY_DYNAMICS_WORLD:
       return &static_cast<const btSoftMultiBodyDynamicsWorld&>(world).getSoftBodyArray();
     case BT_DEFORMABLE_MULTIBODY_DYNAMICS_WORLD:

@@ -85,7 +85,8 @@ double Absorption::share(double exposure, const Step& step) const {
 bool Absorption::takeUp(WetCloth& cloth, std::size_t node, double share) {
   Water& water = cloth.water();
   const double capacity = water.capacity(node);
-  const double room = capacity - water.held(node) - m_carry[node];
+  const double before = water.held(node);
+  const double room = capacity - before - m_carry[node];
   if (!(room > 0)) return true;
   double taken = share * (m_parameters.law == Law::ramp ? capacity : room);
   const bool fills = room - taken <= kNegligible * capacity;
@@ -93,12 +94,11 @@ bool Absorption::takeUp(WetCloth& cloth, std::size_t node, double share) {
   if (!(taken > 0)) return false;
 
   // Many small portions would be lost to rounding against a large amount of water; the carry keeps them.
-  const double before = water.held(node);
-  const btVector3& arriving = m_parameters.conservesMomentum
-                                  ? m_parameters.waterVelocity
-                                  : cloth.body().m_nodes[static_cast<int>(node)].m_v;
-  water.absorb(node, taken + m_carry[node], arriving.x(), arriving.y(), arriving.z());
-  m_carry[node] = fills ? 0 : m_carry[node] + taken - (water.held(node) - before);
+  const double portion = taken + m_carry[node];
+  const btVector3& arriving =
+      m_parameters.conservesMomentum ? m_parameters.waterVelocity : cloth.body().m_nodes[static_cast<int>(node)].m_v;
+  water.absorb(node, portion, arriving.x(), arriving.y(), arriving.z());
+  m_carry[node] = fills ? 0 : portion - (water.held(node) - before);
   return fills;
 }
 

@@ -163,8 +163,8 @@ void HookeSprings::followAnchors(btSoftBody& body, const Step& step) {
     state.isFixed = true;
     for (int axis = 0; axis < 3; ++axis) {
       const std::size_t c = static_cast<std::size_t>(axis);
-      state.velocity[c] = (static_cast<double>(target[axis]) - state.position[c]) / step.dt +
-                          static_cast<double>(velocity[axis]);
+      state.velocity[c] =
+          (static_cast<double>(target[axis]) - state.position[c]) / step.dt + static_cast<double>(velocity[axis]);
     }
   });
 }

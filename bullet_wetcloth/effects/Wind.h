@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/effects/WindField.h"
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace wetcloth {
@@ -19,8 +20,7 @@ btVector3 paperWindForce(const btVector3& a, const btVector3& b, const btVector3
 /// @param velocity  the triangle's own [m/s]
 /// @param airDensity rho [kg/m^3]; @param dragCoefficient C_d [-]; @param skinFriction C_f [-]
 btVector3 quadraticWindForce(const btVector3& a, const btVector3& b, const btVector3& c, const btVector3& velocity,
-                             const btVector3& wind, double airDensity, double dragCoefficient,
-                             double skinFriction);
+                             const btVector3& wind, double airDensity, double dragCoefficient, double skinFriction);
 
 /// The same with a force linear in the relative speed [N]: F = k A u_n n_hat, k = linearDrag [N s/m^3].
 btVector3 linearWindForce(const btVector3& a, const btVector3& b, const btVector3& c, const btVector3& velocity,
@@ -46,7 +46,7 @@ class Wind : public Effect {
     /// Velocity of the air [m/s]: a constant, or a function of position and time.
     WindField velocity;
     Law law = Law::quadratic;
-    double airDensity = 1.2;       ///< rho [kg/m^3], >= 0
+    double airDensity = 1.225;     ///< rho [kg/m^3], >= 0; dry air at 15 C and sea level
     double dragCoefficient = 1.2;  ///< C_d of a flat plate across the stream [-], >= 0
     double skinFriction = 0;       ///< C_f along the surface [-], >= 0
     double linearDrag = 0.256;     ///< k of Law::linear [N s/m^3], >= 0; 0.150 kg/m^2 / 0.585 s, see docs/paper.md
@@ -68,32 +68,38 @@ class Wind : public Effect {
   /// Throws std::invalid_argument when the body has no faces.
   void attach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
+  /// When the air at the body's centre has changed by more than a tenth, or 0.1 m/s, since the last apply().
+  bool wakes(const WetCloth& cloth, const Step& step) const override;
 
   /// Force of the air on the whole cloth in the last step [N].
   btVector3 totalForce() const { return m_totalForce; }
 
  private:
-  // A node as the face loop needs it, packed: Bullet's own nodes are several cache lines each.
-  struct NodeState {
-    btScalar position[3];
-    btScalar velocity[3];       // as predicted, gravity's share of the step included
-    btScalar specificArea;      // area over mass [m^2/kg], 0 when pinned
-    btScalar drag;              // force per relative speed, summed over the triangles [kg/s]
-    btScalar force[3];          // [N]
-    btScalar inverseMass;
+  // A node as the triangle loop needs it, packed in fours: Bullet's own nodes are several cache lines each. With
+  // the axes also in turned order, a cross product comes out as (z, x, y) without any shuffling.
+  struct alignas(4 * sizeof(btScalar)) NodeState {
+    btScalar position[4];        // x, y, z [m] and area over mass [m^2/kg], 0 when pinned
+    btScalar turnedPosition[4];  // y, z, x and 0
+    btScalar relative[4];        // velocity of the air relative to the node, z, x, y [m/s] and 0
+    btScalar force[4];           // z, x, y [N] and 0
   };
+  struct Block;
 
+  btVector3 windAtCentre(const WetCloth& cloth, const Step& step) const;
   void gather(const WetCloth& cloth, const Step& step);
-  template <class TriangleLaw>
-  void accumulate(const Step& step, const TriangleLaw& law);
+  void accumulate(const Step& step);
+  void accumulate(Block& block, const Step& step, std::size_t first, std::size_t count);
+  void accumulateFriction(const Step& step);
   void accumulatePaper(const Step& step);
   void scatter(WetCloth& cloth, const Step& step);
 
   Parameters m_parameters;
   std::vector<NodeState> m_nodes;
+  std::vector<btScalar> m_drag;                 // force per relative speed, over all triangles of a node [kg/s]
   std::vector<btScalar> m_nodeAreas;            // at rest [m^2]
   std::vector<std::array<int, 3>> m_triangles;  // node indices
   btVector3 m_totalForce = btVector3(0, 0, 0);
+  btVector3 m_windAtCentre = btVector3(0, 0, 0);
 };
 
 }  // namespace WETCLOTH_PRECISION

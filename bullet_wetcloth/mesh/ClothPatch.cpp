@@ -155,8 +155,7 @@ std::unique_ptr<btSoftBody> ClothPatch::build(btSoftBodyWorldInfo& worldInfo) co
   requireValid(*this);
   const std::vector<btVector3> positions = nodePositions(*this);
   auto body = std::make_unique<btSoftBody>(&worldInfo, nodeCount(), positions.data(), nullptr);
-  const long long springs =
-      springCount(Spring::mechanical) + springCount(Spring::shear) + springCount(Spring::flexion);
+  const long long springs = springCount(Spring::mechanical) + springCount(Spring::shear) + springCount(Spring::flexion);
   body->m_links.reserve(static_cast<int>(springs));
   body->m_faces.reserve(2 * (columns - 1) * (rows - 1));
   appendSprings(*body, *this);

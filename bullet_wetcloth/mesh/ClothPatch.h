@@ -22,12 +22,12 @@ struct ClothPatch {
   enum class Corner { bottomLeft, bottomRight, topLeft, topRight };
   enum class Spring { mechanical, shear, flexion };
 
-  int columns = 32;                           ///< >= 2
-  int rows = 32;                              ///< >= 2
-  btVector3 origin = btVector3(0, 0, 0);      ///< [m]
-  btVector3 edgeU = btVector3(1, 0, 0);       ///< along a row [m], not parallel to edgeV
-  btVector3 edgeV = btVector3(0, 0, 1);       ///< along a column [m]
-  double arealDensity = 0.150;                ///< [kg/m^2], (0, inf); a node's mass is a third of its triangles'
+  int columns = 32;                       ///< >= 2
+  int rows = 32;                          ///< >= 2
+  btVector3 origin = btVector3(0, 0, 0);  ///< [m]
+  btVector3 edgeU = btVector3(1, 0, 0);   ///< along a row [m], not parallel to edgeV
+  btVector3 edgeV = btVector3(0, 0, 1);   ///< along a column [m]
+  double arealDensity = 0.150;            ///< [kg/m^2], (0, inf); a node's mass is a third of its triangles'
 
   /// Bullet's position-based link stiffness (btSoftBody::Material::m_kLST) by kind, (0, 1].
   double mechanicalStiffness = 1;

@@ -9,7 +9,7 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-constexpr double kWaterReflectance = 0.02;       // normal incidence, n = 1.33
+constexpr double kWaterReflectance = 0.02;  // normal incidence, n = 1.33
 constexpr double kSaturatedRoughnessShare = 0.35;
 
 double clampedFraction(double value) { return value > 0 ? std::min(value, 1.0) : 0.0; }
@@ -26,7 +26,8 @@ double wetAlbedo(double dryAlbedo, double p) {
   requireFraction("dryAlbedo", dryAlbedo);
   requireFraction("p", p);
   const double dryAbsorbed = 1 - dryAlbedo;
-  if (dryAbsorbed == 0) return 1;  // nothing is absorbed, however often the light comes back; the formula is 0/0 at p = 1
+  if (dryAbsorbed == 0)
+    return 1;  // nothing is absorbed, however often the light comes back; the formula is 0/0 at p = 1
   const double wetAbsorbed = (1 - kWaterReflectance) * dryAbsorbed / (1 - p * (1 - dryAbsorbed));
   return 1 - wetAbsorbed;
 }

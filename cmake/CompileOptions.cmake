@@ -1,0 +1,40 @@
+# wetcloth_compile_options(<target>): what every target of this tree is compiled with, and none of its users.
+#
+# -Wconversion is left out on purpose: water is double and btScalar is float or double, so code for both
+# precisions narrows at every border and the casts would hide more than the warning finds.
+function(wetcloth_compile_options target)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+
+  if(MSVC)
+    target_compile_options(${target} PRIVATE /W4 /permissive- $<$<BOOL:${WETCLOTH_WARNINGS_AS_ERRORS}>:/WX>)
+    return()
+  endif()
+
+  # Results must not depend on whether the machine has a fused multiply-add.
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  # Nobody reads errno or the floating-point flags here; without this no loop with a root in it is vectorised. It
+  # changes no result.
+  target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math)
+  target_compile_options(
+    ${target}
+    PRIVATE -Wall
+            -Wextra
+            -Wpedantic
+            -Wshadow
+            -Wold-style-cast
+            -Wnon-virtual-dtor
+            -Woverloaded-virtual
+            -Wcast-qual
+            -Wextra-semi
+            -Wunused
+            -Wvla
+            $<$<BOOL:${WETCLOTH_WARNINGS_AS_ERRORS}>:-Werror>)
+
+  if(WETCLOTH_SANITIZE)
+    set(sanitize -fsanitize=${WETCLOTH_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_compile_options(${target} PRIVATE ${sanitize})
+    # Static libraries do not link; whatever links one needs the sanitizer's runtime too.
+    target_link_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=${WETCLOTH_SANITIZE}>)
+  endif()
+endfunction()

@@ -1,0 +1,8 @@
+# A parent build, the command line and the environment choose their own launcher: ours is only a default.
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  find_program(WETCLOTH_CCACHE ccache)
+  mark_as_advanced(WETCLOTH_CCACHE)
+  if(WETCLOTH_CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${WETCLOTH_CCACHE}")
+  endif()
+endif()

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletSoftBody/btDeformableBodySolver.h>
+#include <BulletSoftBody/btDeformableGravityForce.h>
+#include <BulletSoftBody/btDeformableMultiBodyConstraintSolver.h>
+#include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
+#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
+#include <BulletSoftBody/btSoftMultiBodyDynamicsWorld.h>
+#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace wetcloth_test {
+
+/// Bullet's three worlds with soft bodies; the deformable one integrates in two ways.
+enum class WorldKind { softRigid, softMultiBody, deformable, deformableImplicit };
+
+inline const char* nameOf(WorldKind kind) {
+  switch (kind) {
+    case WorldKind::softRigid: return "softRigid";
+    case WorldKind::softMultiBody: return "softMultiBody";
+    case WorldKind::deformable: return "deformable";
+    case WorldKind::deformableImplicit: break;
+  }
+  return "deformableImplicit";
+}
+
+inline std::ostream& operator<<(std::ostream& out, WorldKind kind) { return out << nameOf(kind); }
+
+inline const btVector3 kEarthGravity(0, btScalar(-9.81), 0);
+
+/// A Bullet world with everything that it needs, as an application would set it up; nothing of ours in it. Bodies
+/// that are added stay the caller's, and must be declared after the world.
+class BulletWorld {
+ public:
+  explicit BulletWorld(WorldKind kind, const btVector3& gravity = kEarthGravity) : m_kind(kind) {
+    if (kind == WorldKind::softRigid) {
+      m_world = std::make_unique<btSoftRigidDynamicsWorld>(&m_dispatcher, &m_broadphase, &m_solver, &m_configuration);
+    } else if (kind == WorldKind::softMultiBody) {
+      m_world = std::make_unique<btSoftMultiBodyDynamicsWorld>(&m_dispatcher, &m_broadphase, &m_multiBodySolver,
+                                                               &m_configuration);
+    } else {
+      m_deformableConstraintSolver.setDeformableSolver(&m_deformableSolver);
+      m_world = std::make_unique<btDeformableMultiBodyDynamicsWorld>(
+          &m_dispatcher, &m_broadphase, &m_deformableConstraintSolver, &m_configuration, &m_deformableSolver);
+      if (kind == WorldKind::deformableImplicit) {
+        deformable().setImplicit(true);
+        deformable().setUseProjection(true);  // without it nothing moves in Bullet 3.24
+      }
+    }
+    m_world->setGravity(gravity);
+    info().m_gravity = gravity;
+    info().m_sparsesdf.Initialize();
+  }
+  BulletWorld(const BulletWorld&) = delete;
+  BulletWorld& operator=(const BulletWorld&) = delete;
+
+  WorldKind kind() const { return m_kind; }
+  bool isDeformable() const { return m_kind == WorldKind::deformable || m_kind == WorldKind::deformableImplicit; }
+  btDiscreteDynamicsWorld& world() { return *m_world; }
+  btDeformableMultiBodyDynamicsWorld& deformable() {
+    return static_cast<btDeformableMultiBodyDynamicsWorld&>(*m_world);
+  }
+  btSoftBodyWorldInfo& info() {
+    if (isDeformable()) return deformable().getWorldInfo();
+    if (m_kind == WorldKind::softRigid) return static_cast<btSoftRigidDynamicsWorld&>(*m_world).getWorldInfo();
+    return static_cast<btSoftMultiBodyDynamicsWorld&>(*m_world).getWorldInfo();
+  }
+
+  /// Adds a soft body; in the deformable world with gravity, as that world wants it.
+  void add(btSoftBody& body) {
+    if (m_kind == WorldKind::softRigid) {
+      static_cast<btSoftRigidDynamicsWorld&>(*m_world).addSoftBody(&body);
+    } else if (m_kind == WorldKind::softMultiBody) {
+      static_cast<btSoftMultiBodyDynamicsWorld&>(*m_world).addSoftBody(&body);
+    } else {
+      deformable().addSoftBody(&body);
+      addForce(body, std::make_unique<btDeformableGravityForce>(info().m_gravity));
+    }
+  }
+  /// A force of the deformable world, for example btDeformableMassSpringForce; kept for the world's life.
+  void addForce(btSoftBody& body, std::unique_ptr<btDeformableLagrangianForce> force) {
+    deformable().addForce(&body, force.get());
+    m_forces.push_back(std::move(force));
+  }
+  void remove(btSoftBody& body) { m_world->removeCollisionObject(&body); }
+
+  /// `count` substeps of exactly dt.
+  void step(int count, btScalar dt = btScalar(1) / 240) {
+    for (int i = 0; i < count; ++i) m_world->stepSimulation(dt, 0);
+  }
+
+ private:
+  WorldKind m_kind;
+  btSoftBodyRigidBodyCollisionConfiguration m_configuration;
+  btCollisionDispatcher m_dispatcher{&m_configuration};
+  btDbvtBroadphase m_broadphase;
+  btSequentialImpulseConstraintSolver m_solver;
+  btMultiBodyConstraintSolver m_multiBodySolver;
+  btDeformableBodySolver m_deformableSolver;
+  btDeformableMultiBodyConstraintSolver m_deformableConstraintSolver;
+  std::vector<std::unique_ptr<btDeformableLagrangianForce>> m_forces;
+  std::unique_ptr<btDiscreteDynamicsWorld> m_world;
+};
+
+/// A test that runs in each of Bullet's worlds: `class MyTest : public InEveryWorld {}; TEST_P(MyTest, ...)`, and
+/// WETCLOTH_IN_EVERY_WORLD(MyTest) once.
+class InEveryWorld : public testing::TestWithParam<WorldKind> {};
+
+#define WETCLOTH_IN_EVERY_WORLD(Suite)                                                                     \
+  INSTANTIATE_TEST_SUITE_P(                                                                                \
+      , Suite,                                                                                             \
+      testing::Values(wetcloth_test::WorldKind::softRigid, wetcloth_test::WorldKind::softMultiBody,        \
+                      wetcloth_test::WorldKind::deformable, wetcloth_test::WorldKind::deformableImplicit), \
+      [](const auto& info) { return std::string(wetcloth_test::nameOf(info.param)); })
+
+/// True when the tests run with Bullet's float64 build.
+inline constexpr bool kIsDouble = sizeof(btScalar) == sizeof(double);
+
+}  // namespace wetcloth_test
