@@ -32,6 +32,13 @@ void store(btScalar (&to)[4], const Four& from) {
   target = from;
 }
 
+void set(btScalar (&to)[4], btScalar v0, btScalar v1, btScalar v2, btScalar v3) {
+  to[0] = v0;
+  to[1] = v1;
+  to[2] = v2;
+  to[3] = v3;
+}
+
 constexpr btScalar kThird = btScalar(1) / 3;
 constexpr btScalar kSixth = btScalar(1) / 6;
 
@@ -164,10 +171,10 @@ void Wind::gather(const WetCloth& cloth, const Step& step) {
   for (std::size_t i = 0; i < m_nodes.size(); ++i, ++node) {
     NodeState& state = m_nodes[i];
     const btVector3 relative = uniform - node->m_v - (node->m_im > 0 ? fall : btVector3(0, 0, 0));
-    store(state.position, Four(node->m_x.x(), node->m_x.y(), node->m_x.z(), m_nodeAreas[i] * node->m_im));
-    store(state.turnedPosition, Four(node->m_x.y(), node->m_x.z(), node->m_x.x(), 0));
-    store(state.relative, Four(relative.z(), relative.x(), relative.y(), 0));
-    store(state.force, Four(0, 0, 0, 0));
+    set(state.position, node->m_x.x(), node->m_x.y(), node->m_x.z(), m_nodeAreas[i] * node->m_im);
+    set(state.turnedPosition, node->m_x.y(), node->m_x.z(), node->m_x.x(), 0);
+    set(state.relative, relative.z(), relative.x(), relative.y(), 0);
+    set(state.force, 0, 0, 0, 0);
   }
   std::fill(m_drag.begin(), m_drag.end(), btScalar(0));
 }

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <bullet_wetcloth/bullet_wetcloth.h>
+
+#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
+#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace wetcloth_bench {
+
+template <class Action>
+double secondsOf(Action action) {
+  const auto start = std::chrono::steady_clock::now();
+  action();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+inline double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// A square cloth of `side` x `side` nodes that hangs from two corners in a soft-rigid world: 10 iterations, a step of
+/// 1/60 s. Several of these can take turns in one run.
+class BenchCloth {
+ public:
+  explicit BenchCloth(int side) {
+    wetcloth::ClothPatch patch;
+    patch.columns = patch.rows = side;
+    patch.pinnedCorners = {wetcloth::ClothPatch::Corner::bottomLeft, wetcloth::ClothPatch::Corner::bottomRight};
+    m_body = patch.build(m_world.getWorldInfo());
+    m_body->m_cfg.piterations = 10;
+    m_world.addSoftBody(m_body.get());
+  }
+  ~BenchCloth() {
+    m_wetWorld.reset();
+    m_world.removeSoftBody(m_body.get());
+  }
+  BenchCloth(const BenchCloth&) = delete;
+  BenchCloth& operator=(const BenchCloth&) = delete;
+
+  btSoftBody& body() { return *m_body; }
+  wetcloth::WetCloth& wet() {
+    if (!m_wetWorld) {
+      m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_world);
+      m_wetWorld->add(*m_body);
+    }
+    return *m_wetWorld->cloths().front();
+  }
+  void step() { m_world.stepSimulation(btScalar(1) / 60, 0); }
+
+ private:
+  btSoftBodyRigidBodyCollisionConfiguration m_configuration;
+  btCollisionDispatcher m_dispatcher{&m_configuration};
+  btDbvtBroadphase m_broadphase;
+  btSequentialImpulseConstraintSolver m_solver;
+  btSoftRigidDynamicsWorld m_world{&m_dispatcher, &m_broadphase, &m_solver, &m_configuration};
+  std::unique_ptr<btSoftBody> m_body;
+  std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;
+};
+
+}  // namespace wetcloth_bench
