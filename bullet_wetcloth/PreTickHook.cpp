@@ -23,6 +23,18 @@ struct Entry {
   bool isRunning = false;  // a callback that was put on top of ours and calls it must not make a circle
 };
 
+// Takes itself back when an application's callback throws.
+class RunningMark {
+ public:
+  explicit RunningMark(bool& isRunning) : m_isRunning(isRunning) { m_isRunning = true; }
+  ~RunningMark() { m_isRunning = false; }
+  RunningMark(const RunningMark&) = delete;
+  RunningMark& operator=(const RunningMark&) = delete;
+
+ private:
+  bool& m_isRunning;
+};
+
 // Worlds may live in threads of their own.
 std::mutex& registryMutex() {
   static std::mutex mutex;
@@ -44,10 +56,9 @@ Entry* findEntry(btDynamicsWorld* world) {
 void onPreTick(btDynamicsWorld* world, btScalar dt) {
   Entry* const entry = findEntry(world);
   if (!entry || entry->isRunning) return;
-  entry->isRunning = true;
+  const RunningMark mark(entry->isRunning);
   if (entry->applicationCallback) entry->applicationCallback(world, dt);
   if (entry->wetWorld) entry->wetWorld->preTick(dt);
-  entry->isRunning = false;
 }
 
 }  // namespace

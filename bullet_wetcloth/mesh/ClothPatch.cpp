@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Require.h"
 
 #include <cstddef>
+#include <cstdlib>
 #include <string>
 
 namespace wetcloth {
@@ -17,26 +18,26 @@ struct Offset {
   int j;
 };
 
-// Bullet solves links one after the other, and a link that shares a node with the one before waits for its result.
-// Each pass takes every other link of a family along its own direction, so that neighbours in the list share none.
-void appendFamily(btSoftBody& body, const ClothPatch& patch, Offset offset, btSoftBody::Material* material,
-                  bool isBending) {
-  const int firstColumn = offset.i < 0 ? -offset.i : 0;
-  const int lastColumn = patch.columns - (offset.i > 0 ? offset.i : 0);
-  const int lastRow = patch.rows - offset.j;
-  for (int j = 0; j < lastRow; ++j) {
-    for (int parity = 0; parity < 2; ++parity) {
-      for (int i = firstColumn; i < lastColumn; ++i) {
-        const int block = offset.i == 0 ? i : i / (offset.i < 0 ? -offset.i : offset.i);
-        if (block % 2 != parity) continue;
-        body.appendLink(patch.node(i, j), patch.node(i + offset.i, j + offset.j), material);
-        // A signed one-bit field: -1 is its only other value.
-        body.m_links[body.m_links.size() - 1].m_bbending = isBending ? -1 : 0;
-      }
+// A family's springs in one row, from (i, j). Bullet solves links one after the other, and a link that shares a node
+// with the one before waits for its result: so every other link along the family's direction comes first.
+void appendRow(btSoftBody& body, const ClothPatch& patch, int j, Offset offset, btSoftBody::Material* material,
+               bool isBending) {
+  if (j + offset.j >= patch.rows) return;
+  const int stride = std::abs(offset.i);
+  const int first = offset.i < 0 ? stride : 0;
+  const int last = patch.columns - (offset.i > 0 ? stride : 0);
+  for (int parity = 0; parity < 2; ++parity) {
+    for (int i = first; i < last; ++i) {
+      const int block = stride == 0 ? i : i / stride;
+      if (block % 2 != parity) continue;
+      body.appendLink(patch.node(i, j), patch.node(i + offset.i, j + offset.j), material);
+      // A signed one-bit field: -1 is its only other value.
+      body.m_links[body.m_links.size() - 1].m_bbending = isBending ? -1 : 0;
     }
   }
 }
 
+// Row by row, all families of a row together, so that its nodes are still in the cache.
 void appendSprings(btSoftBody& body, const ClothPatch& patch) {
   btSoftBody::Material* const mechanical = body.m_materials[0];
   btSoftBody::Material* const shear = body.appendMaterial();
@@ -44,12 +45,14 @@ void appendSprings(btSoftBody& body, const ClothPatch& patch) {
   mechanical->m_kLST = static_cast<btScalar>(patch.mechanicalStiffness);
   shear->m_kLST = static_cast<btScalar>(patch.shearStiffness);
   flexion->m_kLST = static_cast<btScalar>(patch.flexionStiffness);
-  appendFamily(body, patch, {1, 0}, mechanical, false);
-  appendFamily(body, patch, {0, 1}, mechanical, false);
-  appendFamily(body, patch, {1, 1}, shear, false);
-  appendFamily(body, patch, {-1, 1}, shear, false);
-  appendFamily(body, patch, {2, 0}, flexion, true);
-  appendFamily(body, patch, {0, 2}, flexion, true);
+  for (int j = 0; j < patch.rows; ++j) {
+    appendRow(body, patch, j, {1, 0}, mechanical, false);
+    appendRow(body, patch, j, {0, 1}, mechanical, false);
+    appendRow(body, patch, j, {1, 1}, shear, false);
+    appendRow(body, patch, j, {-1, 1}, shear, false);
+    appendRow(body, patch, j, {2, 0}, flexion, true);
+    appendRow(body, patch, j, {0, 2}, flexion, true);
+  }
 }
 
 // All diagonals run the same way, so that every inner node has six triangles and the same share of the area.
