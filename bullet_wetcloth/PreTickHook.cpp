@@ -67,9 +67,7 @@ void PreTickHook::attach(WetClothWorld& wetWorld, bool takeSlot) {
   btDynamicsWorld& world = wetWorld.world();
   const std::lock_guard<std::mutex> lock(registryMutex());
   Entry& entry = registry()[&world];
-  if (entry.wetWorld) {
-    rejectValue("world", static_cast<const void*>(&world), "without a WetClothWorld; it already has one");
-  }
+  if (entry.wetWorld) reject("world", "has a WetClothWorld already");
   entry.wetWorld = &wetWorld;
   btInternalTickCallback& slot = PreTickSlot::of(world);
   if (!takeSlot || slot == onPreTick) return;

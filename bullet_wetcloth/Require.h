@@ -18,6 +18,11 @@ template <class Value>
   throw std::invalid_argument(text.str());
 }
 
+/// Throws std::invalid_argument "what: why", for what has no value worth printing.
+[[noreturn]] inline void reject(const std::string& what, const std::string& why) {
+  throw std::invalid_argument(what + ": " + why);
+}
+
 inline void requirePositive(const std::string& field, double value) {
   if (!(std::isfinite(value) && value > 0)) rejectValue(field, value, "finite and > 0");
 }

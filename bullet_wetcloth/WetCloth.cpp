@@ -23,7 +23,7 @@ WetCloth::WetCloth(WetClothWorld& world, btSoftBody& body, Fabric fabric, bool d
 WetCloth::~WetCloth() = default;
 
 Effect& WetCloth::add(std::unique_ptr<Effect> effect) {
-  if (!effect) rejectValue("effect", "null", "an effect");
+  if (!effect) reject("effect", "must not be null");
   if (bodyChanged()) adaptToBody();
   effect->attach(*this);
   const auto isLater = [](Stage stage, const std::unique_ptr<Effect>& other) { return stage < other->stage(); };
@@ -34,7 +34,7 @@ Effect& WetCloth::add(std::unique_ptr<Effect> effect) {
 void WetCloth::remove(Effect& effect) {
   const auto isIt = [&](const std::unique_ptr<Effect>& other) { return other.get() == &effect; };
   const auto position = std::find_if(m_effects.begin(), m_effects.end(), isIt);
-  if (position == m_effects.end()) rejectValue("effect", effect.name(), "one of this cloth's effects");
+  if (position == m_effects.end()) reject(std::string("effect ") + effect.name(), "is not one of this cloth's effects");
   effect.detach(*this);
   m_effects.erase(position);
 }

@@ -55,23 +55,24 @@ WetClothWorld::~WetClothWorld() {
 
 WetCloth& WetClothWorld::add(btSoftBody& body, const Fabric& fabric) {
   requireValid(fabric);
-  if (!isInWorld(body)) rejectValue("body", static_cast<const void*>(&body), "a soft body of this world; add it first");
-  if (find(body)) rejectValue("body", static_cast<const void*>(&body), "added once; it already is");
+  if (!isInWorld(body)) reject("body", "is not in this world; add it to the world first");
+  if (find(body)) reject("body", "was added already");
+  if (m_hook == Hook::preTick && !isHooked()) {
+    log("wetcloth: another pre-tick callback has replaced ours; no cloth will get wet unless it calls preTick()");
+  }
   m_cloths.push_back(std::unique_ptr<WetCloth>(new WetCloth(*this, body, fabric, isDeformable(m_world))));
   return *m_cloths.back();
 }
 
 WetCloth& WetClothWorld::add(btSoftBody* body, const Fabric& fabric) {
-  if (!body) rejectValue("body", "null", "a soft body");
+  if (!body) reject("body", "must not be null");
   return add(*body, fabric);
 }
 
 void WetClothWorld::remove(btSoftBody& body) {
   const auto wraps = [&](const std::unique_ptr<WetCloth>& cloth) { return &cloth->body() == &body; };
   const auto position = std::find_if(m_cloths.begin(), m_cloths.end(), wraps);
-  if (position == m_cloths.end()) {
-    rejectValue("body", static_cast<const void*>(&body), "one that was added to this WetClothWorld");
-  }
+  if (position == m_cloths.end()) reject("body", "was not added to this WetClothWorld");
   (*position)->releaseEffects();
   m_cloths.erase(position);
 }

@@ -52,8 +52,8 @@ class WetClothWorld {
   /// True while Bullet will call us: false after the application has overwritten the pre-tick callback.
   bool isHooked() const;
 
-  /// One substep of `dt` seconds, before Bullet predicts. Only for Hook::manual. A dt that is not finite and
-  /// positive is ignored. Never throws.
+  /// One substep of `dt` seconds, before Bullet predicts: for Hook::manual, and for an application whose own callback
+  /// has replaced ours (see isHooked()). A dt that is not finite and positive is ignored. Never throws.
   void preTick(btScalar dt);
 
   /// Simulated time since construction [s].

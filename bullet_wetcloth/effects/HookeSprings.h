@@ -36,7 +36,7 @@ class HookeSprings : public Effect {
     double stiffness = 1000;       ///< K of the links [N/m], (0, inf)
     double bendingStiffness = 10;  ///< K of links that are marked as bending (flexion springs) [N/m], [0, inf)
     /// K of each link [N/m], in the order of btSoftBody::m_links; empty: the two values above.
-    std::vector<double> perLink;
+    std::vector<double> perLink = {};
     int iterations = 4;  ///< per substep, >= 1; more follow fast motion more closely, a cloth at rest needs no more
   };
 

@@ -44,7 +44,7 @@ class Wind : public Effect {
 
   struct Parameters {
     /// Velocity of the air [m/s]: a constant, or a function of position and time.
-    WindField velocity;
+    WindField velocity = {};
     Law law = Law::quadratic;
     double airDensity = 1.225;     ///< rho [kg/m^3], >= 0; dry air at 15 C and sea level
     double dragCoefficient = 1.2;  ///< C_d of a flat plate across the stream [-], >= 0

@@ -34,9 +34,9 @@ struct ClothPatch {
   double shearStiffness = 1;
   double flexionStiffness = 1;
 
-  std::vector<Corner> pinnedCorners;
-  std::vector<Edge> pinnedEdges;
-  std::vector<int> pinnedNodes;  ///< indices in [0, columns * rows)
+  std::vector<Corner> pinnedCorners = {};
+  std::vector<Edge> pinnedEdges = {};
+  std::vector<int> pinnedNodes = {};  ///< indices in [0, columns * rows)
 
   int nodeCount() const { return columns * rows; }
   int node(int i, int j) const { return j * columns + i; }

@@ -1,0 +1,135 @@
+#include "CommandLine.h"
+
+#include "Errors.h"
+#include "FallCommand.h"
+#include "NearestWord.h"
+#include "RunCommand.h"
+#include "ValidateCommand.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#ifndef WETCLOTH_VERSION
+#define WETCLOTH_VERSION "0.1.0"
+#endif
+
+namespace runner {
+namespace {
+
+const char* const examples = R"(Examples:
+  wetcloth fall                                         wet and dry fall against plain Bullet
+  wetcloth fall --mode physical --height 5.5 --json -   the same with real cotton, as JSON
+  wetcloth run hanging_towel.json                       run a scene and say what came of it
+  wetcloth run flag_wind_100.json --frames pictures     and paint it: pictures/frame_0000.svg, ...
+  wetcloth run curtain.json --quality accurate --json result.json
+  wetcloth validate *.json                              check scenes without running them
+
+Exit status: 0 done; 1 the run failed; 2 bad usage or bad input, with one line on standard error.)";
+
+template <class Value>
+std::vector<std::string> namesOf(const std::vector<std::pair<std::string, Value>>& pairs) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : pairs) names.push_back(name);
+  return names;
+}
+
+/// Takes one of the words; the complaint suggests the nearest.
+CLI::Validator oneOf(const std::string& option, const std::vector<std::string>& words) {
+  const auto check = [option, words](const std::string& word) -> std::string {
+    if (std::find(words.begin(), words.end(), word) != words.end()) return "";
+    throw InputError("wetcloth: " + option + " = \"" + word + "\": " + didYouMean(word, words) + "must be one of " +
+                     joined(words));
+  };
+  return CLI::Validator(check, joined(words), "one of");
+}
+
+void addRun(CLI::App& app, RunOptions& options, char** arguments) {
+  CLI::App* const run = app.add_subcommand("run", "Run a scene");
+  run->add_option("scene", options.scene, "Scene file (JSON, see docs/scenes.md)")->required();
+  run->add_option("--frames", options.frames, "Directory for pictures of the run, frame_0000.svg and so on");
+  run->add_option("--frame-count", options.frameCount, "How many pictures, evenly spaced")->capture_default_str();
+  run->add_option("--json", options.json, "File for the results as JSON; - is standard output, with nothing else");
+  run->add_option("--quality", options.quality,
+                  "Substeps and iterations, both: draft halves the scene's own, realtime leaves them as written, "
+                  "accurate doubles them, reference takes 4 times as many")
+      ->check(oneOf("--quality", namesOf(qualityNames())))
+      ->capture_default_str();
+  run->add_option("--duration", options.duration, "Simulated time [s], instead of the scene's own");
+  run->add_option("--precision", options.precision, "Instead of the scene's own")
+      ->check(oneOf("--precision", namesOf(precisionNames())));
+  run->callback([&options, arguments] {
+    if (options.duration && !(*options.duration > 0 && *options.duration <= 3600)) {
+      throw InputError("wetcloth: --duration = " + CLI::detail::to_string(*options.duration) +
+                       ": must be in (0, 3600] s");
+    }
+    if (options.frameCount < 1 || options.frameCount > 10000) {
+      throw InputError("wetcloth: --frame-count = " + std::to_string(options.frameCount) + ": must be 1 to 10000");
+    }
+    runScene(options, arguments);
+  });
+}
+
+void addFall(CLI::App& app, FallOptions& options, char** arguments) {
+  CLI::App* const fall = app.add_subcommand("fall", "Let dry and wet cloth fall, beside plain Bullet");
+  fall->add_option("--height", options.height, "Height of the fall [m]; default 19.62 (paper), 5.5 (physical)");
+  fall->add_option("--mode", options.mode,
+                   "paper: Table II, up to 84 times as heavy, drag linear in speed; physical: cotton, quadratic drag")
+      ->check(oneOf("--mode", {"paper", "physical"}))
+      ->capture_default_str();
+  fall->add_option("--world", options.world, "Which of Bullet's worlds")
+      ->check(oneOf("--world", namesOf(worldNames())))
+      ->capture_default_str();
+  fall->add_option("--precision", options.precision, "Of Bullet; default is that of this program")
+      ->check(oneOf("--precision", namesOf(precisionNames())));
+  fall->add_option("--json", options.json, "File for the results as JSON; - is standard output, with nothing else");
+  fall->callback([&options, arguments] { compareFalls(options, arguments); });
+}
+
+void addValidate(CLI::App& app, std::vector<std::string>& files) {
+  CLI::App* const validate = app.add_subcommand("validate", "Check scenes without running them");
+  validate->add_option("scenes", files, "Scene files")->required();
+  validate->callback([&files] { validateScenes(files); });
+}
+
+/// CLI11 calls an unknown subcommand an extra argument.
+void requireKnownCommand(const CLI::App& app, int count, char** arguments) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  if (count < 2) throw InputError("wetcloth: needs a command: " + joined(names) + "; see wetcloth --help");
+  const std::string word = arguments[1];
+  if (word[0] == '-' || std::find(names.begin(), names.end(), word) != names.end()) return;
+  throw InputError("wetcloth: unknown command \"" + word + "\"; " + didYouMean(word, names) + "must be one of " +
+                   joined(names));
+}
+
+}  // namespace
+
+int runCommandLine(int count, char** arguments) {
+  CLI::App app("Runs scenes with cloth that gets wet, in Bullet, and compares them with Bullet as it is.", "wetcloth");
+  app.footer(examples);
+  app.set_version_flag("--version", "wetcloth " WETCLOTH_VERSION);
+  app.require_subcommand(1);
+  RunOptions run;
+  FallOptions fall;
+  std::vector<std::string> files;
+  addRun(app, run, arguments);
+  addFall(app, fall, arguments);
+  addValidate(app, files);
+  try {
+    requireKnownCommand(app, count, arguments);
+    app.parse(count, arguments);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    throw InputError("wetcloth: " + onOneLine(error.what()));
+  }
+  return 0;
+}
+
+}  // namespace runner

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "Saturation.h"
+#include "SceneWorld.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace runner {
+
+struct RunTimes {
+  int steps = 0;
+  double wetMilliseconds = 0;    ///< per step, with the library
+  double plainMilliseconds = 0;  ///< per step, the same scene in plain Bullet
+};
+
+/// What a run came to.
+class RunReport {
+ public:
+  RunReport(const SceneWorld& world, const RunTimes& times, const std::string& quality);
+
+  nlohmann::ordered_json json() const;
+  /// The same, short, for people.
+  std::string summary() const;
+
+ private:
+  void measureBody(const btSoftBody& body);
+  void measureCloth(const wetcloth::WetCloth& cloth);
+
+  const Scene& m_scene;
+  RunTimes m_times;
+  std::string m_quality;
+  std::string m_hash;
+  int m_nodes = 0;
+  int m_links = 0;
+  std::vector<std::string> m_effects;
+  wetcloth::Ledger m_ledger;
+  Saturation m_saturation;
+  double m_moment[3] = {0, 0, 0};  // mass x position [kg m]
+  double m_mass = 0;
+  double m_maxSpeed = 0;
+  double m_maxStretch = 0;
+};
+
+}  // namespace runner

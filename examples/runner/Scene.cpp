@@ -1,0 +1,34 @@
+#include "Scene.h"
+
+#include <utility>
+
+namespace runner {
+namespace {
+
+template <class Value>
+std::string nameIn(const std::vector<std::pair<std::string, Value>>& names, Value wanted) {
+  for (const auto& [name, value] : names) {
+    if (value == wanted) return name;
+  }
+  return "";
+}
+
+}  // namespace
+
+const std::vector<std::pair<std::string, WorldKind>>& worldNames() {
+  static const std::vector<std::pair<std::string, WorldKind>> names{{"soft_rigid", WorldKind::softRigid},
+                                                                    {"soft_multibody", WorldKind::softMultiBody},
+                                                                    {"deformable", WorldKind::deformable}};
+  return names;
+}
+
+const std::vector<std::pair<std::string, Precision>>& precisionNames() {
+  static const std::vector<std::pair<std::string, Precision>> names{{"float32", Precision::float32},
+                                                                    {"float64", Precision::float64}};
+  return names;
+}
+
+std::string nameOf(WorldKind world) { return nameIn(worldNames(), world); }
+std::string nameOf(Precision precision) { return nameIn(precisionNames(), precision); }
+
+}  // namespace runner

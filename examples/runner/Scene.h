@@ -1,0 +1,102 @@
+#pragma once
+
+#include "bullet_wetcloth/bullet_wetcloth.h"
+
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace runner {
+
+enum class WorldKind { softRigid, softMultiBody, deformable };
+enum class Precision { float32, float64 };
+
+/// What this program's btScalar is.
+#ifdef BT_USE_DOUBLE_PRECISION
+inline constexpr Precision ownPrecision = Precision::float64;
+#else
+inline constexpr Precision ownPrecision = Precision::float32;
+#endif
+
+std::string nameOf(WorldKind world);
+std::string nameOf(Precision precision);
+const std::vector<std::pair<std::string, WorldKind>>& worldNames();
+const std::vector<std::pair<std::string, Precision>>& precisionNames();
+
+/// The value of a name that is known to be one of these.
+template <class Value>
+Value valueOf(const std::vector<std::pair<std::string, Value>>& names, const std::string& wanted) {
+  for (const auto& [name, value] : names) {
+    if (name == wanted) return value;
+  }
+  throw std::logic_error("the name " + wanted + " was not checked");
+}
+
+struct TriangleMesh {
+  std::vector<btVector3> vertices;  ///< [m]
+  std::vector<std::array<int, 3>> triangles;
+};
+
+/// Springs of Bullet's deformable world, btDeformableMassSpringForce; its other worlds do not read them.
+struct DeformableSprings {
+  double stiffness = 100;       ///< [N/m]
+  double bendingStiffness = 1;  ///< [N/m]
+  double damping = 0.01;        ///< [N s/m]
+};
+
+struct ClothScene {
+  std::string name;
+  std::variant<wetcloth::ClothPatch, TriangleMesh> shape;
+  std::vector<int> pinnedNodes;  ///< of a mesh; a patch knows its own
+  wetcloth::Fabric fabric;
+  double initialSaturation = 0;
+  double friction = 0.5;  ///< btSoftBody::Config::kDF, [0, 1]
+  double damping = 0;     ///< btSoftBody::Config::kDP, [0, 1]
+  double margin = 0.02;   ///< of collision [m]
+  DeformableSprings springs;
+  std::optional<wetcloth::Absorption::Parameters> absorption;
+  std::optional<wetcloth::Wind::Parameters> wind;
+  std::optional<wetcloth::HookeSprings::Parameters> hookeSprings;
+};
+
+struct Plane {
+  btVector3 normal;  ///< of length 1
+  double offset;     ///< points p of the plane: normal . p = offset [m]
+};
+struct Box {
+  btVector3 centre;
+  btVector3 halfExtents;
+};
+struct Sphere {
+  btVector3 centre;
+  double radius;
+};
+using Collider = std::variant<Plane, Box, Sphere>;
+
+struct CameraScene {
+  btVector3 direction =
+      btVector3(btScalar(-0.45), btScalar(-0.35), -1);  ///< looked along; the distance is fitted to the scene
+  double fieldOfView = 30;                              ///< vertical [degrees]
+};
+
+struct Scene {
+  std::string file;
+  std::string name;
+  WorldKind world = WorldKind::softRigid;
+  Precision precision = Precision::float32;
+  btVector3 gravity = btVector3(0, btScalar(-9.81), 0);
+  double step = 1.0 / 60;  ///< [s]
+  int substeps = 4;        ///< per step
+  int iterations = 10;
+  double duration = 5;  ///< [s]
+  bool implicit = false;
+  std::vector<ClothScene> cloths;
+  std::vector<Collider> colliders;
+  CameraScene camera;
+};
+
+}  // namespace runner

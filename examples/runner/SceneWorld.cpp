@@ -1,0 +1,113 @@
+#include "SceneWorld.h"
+
+#include "Errors.h"
+#include "MeshBody.h"
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace runner {
+namespace {
+
+BulletWorld::Settings settingsOf(const Scene& scene) {
+  return {scene.world, scene.gravity, scene.iterations, scene.implicit};
+}
+
+std::unique_ptr<btSoftBody> makeBody(const ClothScene& cloth, btSoftBodyWorldInfo& worldInfo) {
+  if (const auto* patch = std::get_if<wetcloth::ClothPatch>(&cloth.shape)) return patch->build(worldInfo);
+  auto body = makeMeshBody(std::get<TriangleMesh>(cloth.shape), cloth.fabric.arealDensity, worldInfo);
+  for (const int node : cloth.pinnedNodes) body->setMass(node, 0);
+  return body;
+}
+
+/// Calls `action`; what the library refuses is bad input at `pointer`.
+template <class Action>
+void atPointer(const Scene& scene, const std::string& pointer, Action action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    throw InputError(onOneLine(scene.file + ": " + pointer + ": " + error.what()));
+  }
+}
+
+/// Its length too: a speed that btScalar cannot hold makes the next step's numbers infinite.
+bool isFinite(const btVector3& vector) { return std::isfinite(vector.length2()); }
+
+/// Soft bodies collide with convex shapes only, so a plane becomes the top of a large, thick box.
+constexpr double planeHalfExtent = 50;
+
+}  // namespace
+
+SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_world(settingsOf(scene)) {
+  if (kind == Kind::wet) m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_world.world());
+  for (const Collider& collider : scene.colliders) addCollider(collider);
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    const std::string pointer = "/cloths/" + std::to_string(i);
+    atPointer(scene, pointer, [&] { addCloth(scene.cloths[i]); });
+    if (kind == Kind::plainBullet) continue;
+    atPointer(scene, pointer, [&] { m_cloths.push_back(&m_wetWorld->add(m_bodies.back(), scene.cloths[i].fabric)); });
+    addEffects(i, *m_cloths.back());
+    m_cloths.back()->setSaturation(scene.cloths[i].initialSaturation);
+  }
+}
+
+void SceneWorld::addCloth(const ClothScene& cloth) {
+  std::unique_ptr<btSoftBody> body = makeBody(cloth, m_world.worldInfo());
+  body->m_cfg.kDF = btScalar(cloth.friction);
+  body->m_cfg.kDP = btScalar(cloth.damping);
+  body->getCollisionShape()->setMargin(btScalar(cloth.margin));
+  const bool bulletPulls = !cloth.hookeSprings;
+  m_bodies.push_back(&m_world.add(std::move(body), bulletPulls ? &cloth.springs : nullptr));
+}
+
+void SceneWorld::addEffects(std::size_t index, wetcloth::WetCloth& wet) {
+  const ClothScene& cloth = m_scene.cloths[index];
+  const std::string pointer = "/cloths/" + std::to_string(index) + "/effects/";
+  atPointer(m_scene, pointer + "absorption", [&] {
+    if (cloth.absorption) wet.add<wetcloth::Absorption>(*cloth.absorption);
+  });
+  atPointer(m_scene, pointer + "wind", [&] {
+    if (cloth.wind) wet.add<wetcloth::Wind>(*cloth.wind);
+  });
+  atPointer(m_scene, pointer + "hooke_springs", [&] {
+    if (cloth.hookeSprings) wet.add<wetcloth::HookeSprings>(*cloth.hookeSprings);
+  });
+}
+
+void SceneWorld::addCollider(const Collider& collider) {
+  btTransform place = btTransform::getIdentity();
+  if (const auto* sphere = std::get_if<Sphere>(&collider)) {
+    place.setOrigin(sphere->centre);
+    m_world.addStatic(std::make_unique<btSphereShape>(btScalar(sphere->radius)), place);
+  } else if (const auto* box = std::get_if<Box>(&collider)) {
+    place.setOrigin(box->centre);
+    m_world.addStatic(std::make_unique<btBoxShape>(box->halfExtents), place);
+  } else {
+    const auto& plane = std::get<Plane>(collider);
+    const btScalar half = btScalar(planeHalfExtent);
+    place.setRotation(shortestArcQuat(btVector3(0, 1, 0), plane.normal));
+    place.setOrigin(plane.normal * (btScalar(plane.offset) - half));
+    m_world.addStatic(std::make_unique<btBoxShape>(btVector3(half, half, half)), place);
+  }
+}
+
+void SceneWorld::step() {
+  const btScalar dt = btScalar(m_scene.step / m_scene.substeps);
+  for (int i = 0; i < m_scene.substeps; ++i) m_world.substep(dt);
+}
+
+bool SceneWorld::isFinite() const {
+  for (const btSoftBody* body : m_bodies) {
+    for (int i = 0; i < body->m_nodes.size(); ++i) {
+      if (!runner::isFinite(body->m_nodes[i].m_x) || !runner::isFinite(body->m_nodes[i].m_v)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace runner

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "BulletWorld.h"
+#include "Scene.h"
+
+#include <memory>
+#include <vector>
+
+namespace runner {
+
+/// A scene, ready to run.
+class SceneWorld {
+ public:
+  /// The same scene with the library, or in Bullet alone: what it is compared with.
+  enum class Kind { wet, plainBullet };
+
+  /// Throws InputError naming the file and the JSON pointer when the library refuses a cloth or an effect.
+  explicit SceneWorld(const Scene& scene, Kind kind = Kind::wet);
+
+  /// One step of the scene, all its substeps.
+  void step();
+
+  const Scene& scene() const { return m_scene; }
+  const std::vector<btSoftBody*>& bodies() const { return m_bodies; }
+  /// The wet cloths, in the order of the scene; none in plain Bullet.
+  const std::vector<wetcloth::WetCloth*>& cloths() const { return m_cloths; }
+  /// Whether all positions and velocities are finite.
+  bool isFinite() const;
+
+ private:
+  void addCloth(const ClothScene& cloth);
+  void addEffects(std::size_t index, wetcloth::WetCloth& wet);
+  void addCollider(const Collider& collider);
+
+  const Scene& m_scene;
+  BulletWorld m_world;
+  std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;  // after the world: it detaches before the world goes
+  std::vector<btSoftBody*> m_bodies;
+  std::vector<wetcloth::WetCloth*> m_cloths;
+};
+
+}  // namespace runner

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace runner {
+
+/// The file's whole text. Throws std::invalid_argument that says why it cannot be had: "no such file", "is a
+/// directory", "cannot be read", "is empty".
+std::string readTextFile(const std::string& path);
+
+}  // namespace runner

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace runner {
+
+/// `wetcloth validate`: loads and builds each scene without running it, and prints "FILE: ok". Throws InputError for
+/// the first one that is wrong.
+void validateScenes(const std::vector<std::string>& files);
+
+}  // namespace runner
