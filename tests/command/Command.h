@@ -1,0 +1,49 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace command {
+
+using Json = nlohmann::json;
+
+/// What a program left behind.
+struct Outcome {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+/// Runs a program to its end.
+Outcome runProgram(const std::vector<std::string>& words);
+/// Runs `wetcloth` with these arguments.
+Outcome wetcloth(const std::vector<std::string>& arguments);
+
+/// The name of this test program's precision, for --precision.
+std::string ownPrecision();
+
+std::string sceneFile(const std::string& name);  ///< examples/scenes/NAME.json
+std::vector<std::string> sceneFiles();           ///< all of examples/scenes
+Json readJson(const std::string& file);
+/// The scene of tests/scenes/small.json, to be changed.
+Json smallScene();
+
+/// A directory that is empty at first and gone with the object.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory();
+  ~TemporaryDirectory();
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+
+  std::string path(const std::string& name) const { return m_path + "/" + name; }
+  /// Writes a file and returns its path.
+  std::string write(const std::string& name, const std::string& text) const;
+
+ private:
+  std::string m_path;
+};
+
+}  // namespace command

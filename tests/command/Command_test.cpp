@@ -1,0 +1,101 @@
+#include "Command.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace command {
+namespace {
+
+std::string quoted(const std::string& word) {
+  std::string text = "'";
+  for (const char character : word) text += character == '\'' ? std::string("'\\''") : std::string(1, character);
+  return text + "'";
+}
+
+std::string contents(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+Outcome runProgram(const std::vector<std::string>& words) {
+  const TemporaryDirectory directory;
+  std::string line;
+  for (const std::string& word : words) line += quoted(word) + " ";
+  line += ">" + quoted(directory.path("out")) + " 2>" + quoted(directory.path("err")) + " </dev/null";
+  const int status = std::system(line.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(directory.path("out")),
+          contents(directory.path("err"))};
+}
+
+Outcome wetcloth(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{WETCLOTH_COMMAND};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return runProgram(words);
+}
+
+std::string ownPrecision() {
+#ifdef BT_USE_DOUBLE_PRECISION
+  return "float64";
+#else
+  return "float32";
+#endif
+}
+
+std::string sceneFile(const std::string& name) { return WETCLOTH_SOURCE_DIR "/examples/scenes/" + name + ".json"; }
+
+std::vector<std::string> sceneFiles() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(WETCLOTH_SOURCE_DIR "/examples/scenes")) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() == ".json" && name != "scene.schema.json") files.push_back(entry.path().string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Json readJson(const std::string& file) { return Json::parse(contents(file)); }
+
+Json smallScene() { return readJson(WETCLOTH_SOURCE_DIR "/tests/scenes/small.json"); }
+
+TemporaryDirectory::TemporaryDirectory() {
+  std::string name = (std::filesystem::temp_directory_path() / "wetcloth_test_XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+  m_path = name;
+}
+
+TemporaryDirectory::~TemporaryDirectory() {
+  std::error_code ignored;
+  std::filesystem::remove_all(m_path, ignored);
+}
+
+std::string TemporaryDirectory::write(const std::string& name, const std::string& text) const {
+  std::ofstream(path(name), std::ios::binary) << text;
+  return path(name);
+}
+
+}  // namespace command
+
+TEST(Command, VersionAndHelpEndWithStatusZero) {
+  EXPECT_EQ(command::wetcloth({"--version"}).status, 0);
+  EXPECT_EQ(command::wetcloth({"--version"}).out.rfind("wetcloth ", 0), 0u);
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"--help"}, {"run", "--help"}, {"fall", "--help"}, {"validate", "--help"}}) {
+    const command::Outcome outcome = command::wetcloth(arguments);
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_NE(outcome.out.find("--help"), std::string::npos);
+    EXPECT_EQ(outcome.err, "");
+  }
+  EXPECT_NE(command::wetcloth({"--help"}).out.find("Examples:"), std::string::npos);
+}

@@ -1,0 +1,89 @@
+#include "Command.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace {
+
+using namespace command;
+
+constexpr double g = 9.81;
+constexpr double substep = 1.0 / 240;
+
+Json fall(std::vector<std::string> more) {
+  std::vector<std::string> arguments{"fall", "--json", "-", "--precision", ownPrecision()};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Outcome outcome = wetcloth(arguments);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return outcome.status == 0 ? Json::parse(outcome.out).at("cases") : Json::array();
+}
+
+Json caseNamed(const Json& cases, const std::string& name) {
+  for (const Json& one : cases) {
+    if (one.at("name") == name) return one;
+  }
+  ADD_FAILURE() << "no case " << name;
+  return Json();
+}
+
+/// Distance fallen through air that resists in proportion to speed; tau = m / c.
+double linearDistance(double t, double tau) { return g * tau * (t - tau * (1 - std::exp(-t / tau))); }
+/// Distance fallen through air that resists in proportion to speed squared.
+double quadraticDistance(double t, double terminal) {
+  return terminal * terminal / g * std::log(std::cosh(g * t / terminal));
+}
+
+void expectWithinOneSubstep(const Json& cases) {
+  for (const Json& one : cases) {
+    EXPECT_NEAR(one.at("time_s").get<double>(), one.at("closed_form_s").get<double>(), substep) << one.dump();
+    EXPECT_GT(one.at("fps").get<double>(), 0);
+  }
+}
+
+class FallInWorld : public testing::TestWithParam<const char*> {};
+
+}  // namespace
+
+TEST_P(FallInWorld, PaperFourSecondsDryTwoSaturated) {
+  const Json cases = fall({"--world", GetParam()});
+  ASSERT_GE(cases.size(), 7u);
+  expectWithinOneSubstep(cases);
+  EXPECT_NEAR(caseNamed(cases, "bullet").at("time_s").get<double>(), std::sqrt(2 * 19.62 / g), substep);
+  EXPECT_NEAR(caseNamed(cases, "dry").at("time_s").get<double>(), 4.00, 0.01);
+  EXPECT_NEAR(caseNamed(cases, "saturated").at("time_s").get<double>(), 2.01, 0.01);
+  EXPECT_DOUBLE_EQ(caseNamed(cases, "saturated").at("wet_dry_mass_ratio").get<double>(), 84);
+  for (const Json& one : cases) {
+    if (one.at("name") == "bullet") continue;
+    const double tau = 0.585 * one.at("wet_dry_mass_ratio").get<double>();
+    EXPECT_NEAR(linearDistance(one.at("closed_form_s").get<double>(), tau), 19.62, 1e-9) << one.dump();
+  }
+}
+
+TEST_P(FallInWorld, PhysicalSaturatedCottonDoesNotHalveTheTime) {
+  const Json cases = fall({"--world", GetParam(), "--mode", "physical"});
+  expectWithinOneSubstep(cases);
+  EXPECT_NEAR(caseNamed(cases, "dry").at("time_s").get<double>(), 3.99, 0.01);
+  EXPECT_NEAR(caseNamed(cases, "saturated").at("time_s").get<double>(), 3.00, 0.01);
+  EXPECT_NEAR(caseNamed(cases, "4 x dry").at("time_s").get<double>(), 2.14, 0.01);
+  for (const Json& one : cases) {
+    if (one.at("name") == "bullet") continue;
+    const double terminal = std::sqrt(2 * 0.150 * one.at("wet_dry_mass_ratio").get<double>() * g / (1.225 * 1.2));
+    EXPECT_NEAR(quadraticDistance(one.at("closed_form_s").get<double>(), terminal), 5.5, 1e-9) << one.dump();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, FallInWorld, testing::Values("soft_rigid", "soft_multibody", "deformable"));
+
+TEST(Fall, OtherHeights) {
+  for (const char* height : {"0.01", "1", "12"}) expectWithinOneSubstep(fall({"--height", height}));
+}
+
+TEST(Fall, TableShowsEveryCaseWithItsClosedForm) {
+  const Outcome outcome = wetcloth({"fall", "--mode", "physical", "--height", "0.5"});
+  EXPECT_EQ(outcome.status, 0);
+  for (const char* word : {"bullet", "dry", "saturated", "closed form", "error", "does not halve the time"}) {
+    EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
+  }
+}

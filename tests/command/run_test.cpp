@@ -1,0 +1,210 @@
+#include "Command.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace {
+
+using namespace command;
+
+Json runScene(const std::string& file, std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments{"run", file, "--json", "-", "--precision", ownPrecision()};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Outcome outcome = wetcloth(arguments);
+  EXPECT_EQ(outcome.status, 0) << file << ": " << outcome.err;
+  return outcome.status == 0 ? Json::parse(outcome.out) : Json();
+}
+
+Json runScene(const Json& scene, std::vector<std::string> more = {}) {
+  const TemporaryDirectory directory;
+  return runScene(directory.write("scene.json", scene.dump()), std::move(more));
+}
+
+double centreHeight(const Json& result) { return result.at("centre_of_mass").at(1).get<double>(); }
+
+}  // namespace
+
+TEST(Run, EveryExampleSceneGivesAllKeys) {
+  const std::vector<std::string> files = sceneFiles();
+  ASSERT_GE(files.size(), 8u);
+  for (const std::string& file : files) {
+    SCOPED_TRACE(file);
+    const Json result = runScene(file, {"--duration", "0.1"});
+    for (const char* key :
+         {"scene", "world", "precision", "steps", "dt", "nodes", "links", "effects", "wall_ms_per_step",
+          "bullet_ms_per_step", "ledger", "saturation", "centre_of_mass", "max_speed", "max_stretch", "state_hash"}) {
+      EXPECT_TRUE(result.contains(key)) << key;
+    }
+    for (const char* key : {"initial", "absorbed", "evaporated", "dripped", "held"}) {
+      EXPECT_TRUE(result.at("ledger").at(key).is_number()) << key;
+    }
+    for (const char* key : {"min", "mean", "max"}) EXPECT_TRUE(result.at("saturation").at(key).is_number()) << key;
+    EXPECT_EQ(result.at("centre_of_mass").size(), 3u);
+    EXPECT_EQ(result.at("precision"), ownPrecision());
+    EXPECT_EQ(result.at("steps"), 6);
+    EXPECT_GT(result.at("wall_ms_per_step"), 0);
+    EXPECT_GT(result.at("bullet_ms_per_step"), 0);
+  }
+}
+
+TEST(Run, SameSceneSameHash) {
+  for (const char* name : {"flag_wind_100", "curtain_deformable", "soak_and_drape_sphere"}) {
+    const Json first = runScene(sceneFile(name), {"--duration", "0.2"});
+    const Json second = runScene(sceneFile(name), {"--duration", "0.2"});
+    EXPECT_EQ(first.at("state_hash"), second.at("state_hash")) << name;
+    EXPECT_EQ(first.at("state_hash").get<std::string>().size(), 16u);
+  }
+}
+
+TEST(Run, HashDiffersWhenTheWaterDiffers) {
+  Json scene = smallScene();
+  const Json dry = runScene(scene);
+  scene["cloths"][0]["initial_saturation"] = 0.1;
+  EXPECT_NE(dry.at("state_hash"), runScene(scene).at("state_hash"));
+}
+
+TEST(Run, WithoutEffectsAClothFallsAsInAVacuum) {
+  for (const char* world : {"soft_rigid", "soft_multibody", "deformable"}) {
+    Json scene = smallScene();
+    scene["world"] = world;
+    scene["duration_s"] = 0.5;
+    scene["cloths"][0].erase("effects");
+    const Json result = runScene(scene);
+    const double time = result.at("steps").get<double>() * result.at("dt").get<double>();
+    const double substep = result.at("dt").get<double>() / 4;
+    EXPECT_NEAR(centreHeight(result), 1 - 0.5 * 9.81 * time * time, 9.81 * time * substep) << world;
+    EXPECT_TRUE(result.at("effects").empty());
+    EXPECT_EQ(result.at("ledger").at("held"), 0);
+  }
+}
+
+TEST(Run, AbsorptionFollowsItsClosedFormAndTheLedgerCloses) {
+  Json scene = smallScene();
+  scene["cloths"][0]["effects"]["absorption"]["exposure"] = 0.5;
+  scene["cloths"][0]["initial_saturation"] = 0.25;
+  const Json result = runScene(scene, {"--duration", "1"});
+  const double time = result.at("steps").get<double>() * result.at("dt").get<double>();
+  const double expected = 1 - 0.75 * std::exp(-0.5 * time / 8.844);
+  EXPECT_NEAR(result.at("saturation").at("mean").get<double>(), expected, 1e-6);
+  const Json& ledger = result.at("ledger");
+  const double held = 0.15 * 0.84 * expected;  // one square metre
+  EXPECT_NEAR(ledger.at("held").get<double>(), held, 1e-6);
+  EXPECT_NEAR(ledger.at("initial").get<double>() + ledger.at("absorbed").get<double>() -
+                  ledger.at("dripped").get<double>() - ledger.at("evaporated").get<double>(),
+              ledger.at("held").get<double>(), 1e-12 * held);
+}
+
+TEST(Run, OnlyWhatLiesBelowTheSurfaceGetsWet) {
+  Json scene = smallScene();
+  scene["gravity_m_s2"] = {0, 0, 0};
+  scene["cloths"][0]["patch"]["edge_v_m"] = {0, 1, 0};  // upright, from 1 m to 2 m
+  scene["cloths"][0]["effects"] = {{"absorption", {{"exposure", {{"below_m", 1.5}}}}}};
+  const Json result = runScene(scene);
+  EXPECT_EQ(result.at("saturation").at("min"), 0);
+  EXPECT_GT(result.at("saturation").at("max"), 0);
+}
+
+TEST(Run, SaturatedClothFallsFasterThroughAir) {
+  const Json dry = runScene(sceneFile("fall_dry"), {"--duration", "0.7"});
+  const Json wet = runScene(sceneFile("fall_wet"), {"--duration", "0.7"});
+  EXPECT_LT(centreHeight(wet), centreHeight(dry) - 0.1);
+  EXPECT_DOUBLE_EQ(wet.at("saturation").at("min").get<double>(), 1);
+}
+
+TEST(Run, ThePapersThreeWindsLiftTheFlagHigherAndStayStable) {
+  double lower = 0;
+  for (const char* name : {"flag_wind_050", "flag_wind_100", "flag_wind_150"}) {
+    const Json result = runScene(sceneFile(name), {"--duration", "2"});
+    EXPECT_GT(centreHeight(result), lower) << name;
+    EXPECT_LT(result.at("max_speed").get<double>(), 10) << name;
+    EXPECT_LT(result.at("max_stretch").get<double>(), 1.5) << name;
+    lower = centreHeight(result);
+  }
+}
+
+TEST(Run, QualityScalesSubstepsAndIterations) {
+  const std::vector<std::pair<std::string, int>> expected{
+      {"draft", 2}, {"realtime", 4}, {"accurate", 8}, {"reference", 16}};
+  for (const auto& [quality, count] : expected) {
+    const Json result = runScene(smallScene(), {"--quality", quality});
+    EXPECT_EQ(result.at("substeps"), count) << quality;
+    EXPECT_EQ(result.at("iterations"), count) << quality;
+  }
+}
+
+TEST(Run, ASceneDecidesItsPrecision) {
+  for (const char* precision : {"float32", "float64"}) {
+    Json scene = smallScene();
+    scene["precision"] = precision;
+    const TemporaryDirectory directory;
+    const Outcome outcome = wetcloth({"run", directory.write("scene.json", scene.dump()), "--json", "-"});
+    if (outcome.status == 2) GTEST_SKIP() << outcome.err;  // Bullet was found in one precision only
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(Json::parse(outcome.out).at("precision"), precision);
+  }
+}
+
+TEST(Run, AMeshFromAFileRunsLikeAPatch) {
+  const TemporaryDirectory directory;
+  directory.write("square.obj",
+                  "# a square metre\nv 0 1 0\nv 1 1 0\nv 1 1 1\nv 0 1 1\nv 0.5 1 0.5\n"
+                  "f 1 2 5\nf 2/1/1 3//2 5\nf -3 -2 -1\nf 4 1 5\n");
+  Json scene = smallScene();
+  scene["cloths"][0].erase("patch");
+  scene["cloths"][0]["obj"] = "square.obj";
+  scene["cloths"][0]["pins"] = {{"nodes", {0}}};
+  const Json result = runScene(directory.write("scene.json", scene.dump()));
+  EXPECT_EQ(result.at("nodes"), 5);
+  EXPECT_EQ(result.at("links"), 8 + 2);  // edges, and the two diagonals that keep it from bending
+  EXPECT_LE(result.at("ledger").at("held").get<double>(), 0.15 * 0.84);
+}
+
+TEST(Run, FramesArePicturesEvenlySpaced) {
+  const TemporaryDirectory directory;
+  runScene(smallScene(), {"--frames", directory.path("pictures"), "--frame-count", "3"});
+  for (const char* name : {"frame_0000.svg", "frame_0001.svg", "frame_0002.svg"}) {
+    std::ifstream file(directory.path("pictures") + "/" + name);
+    const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    EXPECT_EQ(text.rfind("<svg ", 0), 0u) << name;
+    EXPECT_NE(text.find("</svg>"), std::string::npos) << name;
+    EXPECT_EQ(text.find("nan"), std::string::npos) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(directory.path("pictures") + "/frame_0003.svg"));
+}
+
+TEST(Run, WithoutJsonPrintsASummaryAndWithAFilePrintsBoth) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("scene.json", smallScene().dump());
+  const Outcome outcome = wetcloth({"run", file, "--json", directory.path("result.json")});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.out.find("state hash"), std::string::npos);
+  EXPECT_TRUE(readJson(directory.path("result.json")).contains("state_hash"));
+}
+
+TEST(Run, ANonFiniteStateIsARunThatFailed) {
+  Json scene = smallScene();
+  scene["gravity_m_s2"] = {0, -3e38, 0};  // too much for float32
+  scene["cloths"][0]["effects"]["wind"] = {{"velocity_m_s", {1e30, 1e30, 1e30}},
+                                           {"integration", "explicit_euler"}};  // and this for float64
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("scene.json", scene.dump());
+  const Outcome outcome = wetcloth({"run", file, "--precision", ownPrecision()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find(file + ": the state became non-finite in step "), std::string::npos) << outcome.err;
+}
+
+TEST(Validate, SaysOkForEachExampleScene) {
+  std::vector<std::string> arguments{"validate"};
+  std::string expected;
+  for (const std::string& file : sceneFiles()) {
+    arguments.push_back(file);
+    expected += file + ": ok\n";
+  }
+  const Outcome outcome = wetcloth(arguments);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, expected);
+}

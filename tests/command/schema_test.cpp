@@ -1,0 +1,83 @@
+#include "Command.h"
+
+#include "examples/runner/SceneKeys.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace {
+
+using namespace command;
+
+const char* const schemaFile = WETCLOTH_SOURCE_DIR "/examples/scenes/scene.schema.json";
+
+const char* const check = R"(
+import json, sys
+from jsonschema import Draft202012Validator
+schema = json.load(open(sys.argv[1]))
+Draft202012Validator.check_schema(schema)
+for name in sys.argv[2:]:
+    for error in Draft202012Validator(schema).iter_errors(json.load(open(name))):
+        print(name, error.message.replace("\n", " "))
+)";
+
+bool hasJsonSchema() {
+  return runProgram({"python3", "-c", "from jsonschema import Draft202012Validator"}).status == 0;
+}
+
+/// What the schema has against the files: one line each, nothing when they are right.
+std::string complaints(const std::vector<std::string>& files) {
+  std::vector<std::string> words{"python3", "-c", check, schemaFile};
+  words.insert(words.end(), files.begin(), files.end());
+  const Outcome outcome = runProgram(words);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return outcome.out;
+}
+
+void expectClosedObjects(const Json& schema, const std::string& where) {
+  if (schema.is_object() && schema.contains("properties")) {
+    EXPECT_EQ(schema.value("additionalProperties", Json(true)), false) << where;
+  }
+  if (!schema.is_structured()) return;
+  for (const auto& [key, value] : schema.items()) expectClosedObjects(value, where + "/" + key);
+}
+
+}  // namespace
+
+TEST(Schema, HasTheKeysThatTheReaderKnowsAndNoOthers) {
+  const Json schema = readJson(schemaFile);
+  std::set<std::string> tables;
+  for (const runner::KeyTable* table : runner::keys::all) {
+    const Json& object = table->name == "scene" ? schema : schema.at("$defs").at(table->name);
+    std::set<std::string> inSchema;
+    for (const auto& [key, value] : object.at("properties").items()) inSchema.insert(key);
+    EXPECT_EQ(inSchema, std::set<std::string>(table->keys.begin(), table->keys.end())) << table->name;
+    tables.insert(table->name);
+  }
+  for (const auto& [name, definition] : schema.at("$defs").items()) {
+    EXPECT_EQ(tables.count(name), definition.count("properties")) << name;
+  }
+}
+
+TEST(Schema, AllowsNoOtherKeysAnywhere) { expectClosedObjects(readJson(schemaFile), ""); }
+
+TEST(Schema, AcceptsEveryScene) {
+  if (!hasJsonSchema()) GTEST_SKIP() << "python3 has no jsonschema (Debian: python3-jsonschema)";
+  std::vector<std::string> files = sceneFiles();
+  files.push_back(WETCLOTH_SOURCE_DIR "/tests/scenes/small.json");
+  EXPECT_EQ(complaints(files), "");
+}
+
+TEST(Schema, RefusesATypoAtEachDepth) {
+  if (!hasJsonSchema()) GTEST_SKIP() << "python3 has no jsonschema (Debian: python3-jsonschema)";
+  for (const char* pointer :
+       {"/duraton_s", "/cloths/0/fabrik", "/cloths/0/patch/colums", "/cloths/0/fabric/color",
+        "/cloths/0/effects/absorbtion", "/cloths/0/effects/wind/velocity_km_h", "/colliders/0/sphere/radius_cm"}) {
+    Json scene = smallScene();
+    scene[Json::json_pointer(pointer)] = 1;
+    const TemporaryDirectory directory;
+    EXPECT_NE(complaints({directory.write("scene.json", scene.dump())}), "") << pointer;
+  }
+}
