@@ -85,17 +85,28 @@ void WetCloth::log(const std::string& message) const { m_world.log(message); }
 // own may, and an exception must not travel through Bullet's step: that effect is removed, with a message.
 template <class Action>
 void WetCloth::guarded(std::size_t& index, Action action) {
+  std::string reason;
   try {
     action(*m_effects[index]);
     ++index;
+    return;
   } catch (const std::exception& error) {
-    log(std::string("wetcloth: effect ") + m_effects[index]->name() + " removed: " + error.what());
-    m_effects.erase(m_effects.begin() + static_cast<std::ptrdiff_t>(index));
+    reason = error.what();
+  } catch (...) {
+    reason = "an exception that is no std::exception";
+  }
+  log(std::string("wetcloth: effect ") + m_effects[index]->name() + " removed: " + reason);
+  const std::unique_ptr<Effect> failed = std::move(m_effects[index]);
+  m_effects.erase(m_effects.begin() + static_cast<std::ptrdiff_t>(index));
+  try {
+    failed->detach(*this);
+  } catch (...) {
+    log(std::string("wetcloth: effect ") + failed->name() + " could not give back what it changed");
   }
 }
 
 void WetCloth::step(const Step& step) {
-  if (m_effects.empty() || !(step.dt > 0)) return;
+  if ((m_effects.empty() && !m_water.movedSinceCommit()) || !(step.dt > 0)) return;
   if (bodyChanged()) adaptToBody();
   std::size_t next = 0;
   const auto run = [&](Effect& effect) { effect.apply(*this, step); };

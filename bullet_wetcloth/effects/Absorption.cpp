@@ -43,7 +43,7 @@ void Absorption::setExposure(Exposure exposure) {
   exposure.requireValid("Absorption.exposure");
   if (!m_carry.empty()) exposure.requireSize("Absorption.exposure", m_carry.size());
   m_parameters.exposure = std::move(exposure);
-  m_settled = false;
+  m_settled = m_hasNormals = false;
 }
 
 void Absorption::attach(WetCloth& cloth) {
@@ -51,12 +51,17 @@ void Absorption::attach(WetCloth& cloth) {
   if (firstTime) m_parameters.exposure.requireSize("Absorption.exposure", cloth.water().size());
   m_carry.assign(cloth.water().size(), 0);
   m_timeConstant = cloth.fabric().timeConstant;
-  m_settled = false;
+  m_settled = m_hasNormals = false;
 }
 
 void Absorption::apply(WetCloth& cloth, const Step& step) {
   if (m_settled && m_settledRevision == cloth.water().revision()) return;
   const Exposure& exposure = m_parameters.exposure;
+  if (exposure.isFunction() && !m_hasNormals) {
+    // Bullet computes normals at the end of a step: a body that has never stepped has none yet.
+    cloth.body().updateNormals();
+    m_hasNormals = true;
+  }
   const bool isUniform = !exposure.isFunction() && !exposure.isPerNode();
   const double uniformShare = isUniform ? share(exposure.at(0, btVector3(0, 0, 0), btVector3(0, 0, 0)), step) : 0;
   bool settled = true;

@@ -66,6 +66,7 @@ class Absorption : public Effect {
   std::vector<double> m_carry;  // what each node took but its rounded water could not show yet [kg]
   unsigned long long m_settledRevision = 0;
   bool m_settled = false;
+  bool m_hasNormals = false;
   long long m_nodesVisited = 0;
 };
 

@@ -151,12 +151,12 @@ TEST_P(BadSceneTest, IsRefusedInOneLine) {
 INSTANTIATE_TEST_SUITE_P(Scenes, BadSceneTest, testing::ValuesIn(badScenes()),
                          [](const auto& tested) { return tested.param.name; });
 
-TEST(BadInput, TheSceneItselfIsGood) {
+TEST(CommandBadInput, TheSceneItselfIsGood) {
   const TemporaryDirectory directory;
   EXPECT_EQ(wetcloth({"validate", directory.write("scene.json", smallScene().dump())}).status, 0);
 }
 
-TEST(BadInput, FilesThatAreNoScenes) {
+TEST(CommandBadInput, FilesThatAreNoScenes) {
   const TemporaryDirectory directory;
   for (const char* command : {"run", "validate"}) {
     expectRefusal(wetcloth({command, directory.path("none.json")}), {directory.path("none.json"), "no such file"});
@@ -176,7 +176,7 @@ TEST(BadInput, FilesThatAreNoScenes) {
   }
 }
 
-TEST(BadInput, MeshesThatAreNoCloth) {
+TEST(CommandBadInput, MeshesThatAreNoCloth) {
   for (const BadMesh& mesh : badMeshes()) {
     SCOPED_TRACE(mesh.name);
     const TemporaryDirectory directory;
@@ -191,7 +191,7 @@ TEST(BadInput, MeshesThatAreNoCloth) {
   }
 }
 
-TEST(BadInput, TargetsThatCannotBeWritten) {
+TEST(CommandBadInput, TargetsThatCannotBeWritten) {
   const TemporaryDirectory directory;
   const std::string file = directory.write("scene.json", smallScene().dump());
   expectRefusal(wetcloth({"run", file, "--json", "/dev/null/result.json"}), {"--json", "/dev/null/result.json"});
@@ -200,7 +200,7 @@ TEST(BadInput, TargetsThatCannotBeWritten) {
   expectRefusal(wetcloth({"fall", "--height", "0.01", "--json", "/dev/null/result.json"}), {"--json"});
 }
 
-TEST(BadInput, Usage) {
+TEST(CommandBadInput, Usage) {
   const TemporaryDirectory directory;
   const std::string file = directory.write("scene.json", smallScene().dump());
   expectRefusal(wetcloth({}), {"run", "fall", "validate"});

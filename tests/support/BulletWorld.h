@@ -37,7 +37,7 @@ inline std::ostream& operator<<(std::ostream& out, WorldKind kind) { return out 
 inline const btVector3 kEarthGravity(0, btScalar(-9.81), 0);
 
 /// A Bullet world with everything that it needs, as an application would set it up; nothing of ours in it. Bodies
-/// that are added stay the caller's, and must be declared after the world.
+/// that are added stay the caller's, who may destroy them before or after the world.
 class BulletWorld {
  public:
   explicit BulletWorld(WorldKind kind, const btVector3& gravity = kEarthGravity) : m_kind(kind) {
@@ -59,6 +59,8 @@ class BulletWorld {
     info().m_gravity = gravity;
     info().m_sparsesdf.Initialize();
   }
+  // Bullet's own destructor looks at every body that is still in the world, and a test's bodies may be gone by then.
+  ~BulletWorld() { m_world->getCollisionObjectArray().clear(); }
   BulletWorld(const BulletWorld&) = delete;
   BulletWorld& operator=(const BulletWorld&) = delete;
 
@@ -119,7 +121,7 @@ class InEveryWorld : public testing::TestWithParam<WorldKind> {};
       , Suite,                                                                                             \
       testing::Values(wetcloth_test::WorldKind::softRigid, wetcloth_test::WorldKind::softMultiBody,        \
                       wetcloth_test::WorldKind::deformable, wetcloth_test::WorldKind::deformableImplicit), \
-      [](const auto& info) { return std::string(wetcloth_test::nameOf(info.param)); })
+      [](const auto& test) { return std::string(wetcloth_test::nameOf(test.param)); })
 
 /// True when the tests run with Bullet's float64 build.
 inline constexpr bool kIsDouble = sizeof(btScalar) == sizeof(double);

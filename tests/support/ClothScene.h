@@ -59,8 +59,8 @@ class ClothScene {
     if (!m_bullet.isDeformable()) return;
     m_bullet.addForce(*m_body, std::make_unique<btDeformableMassSpringForce>(btScalar(stiffness), btScalar(damping)));
   }
-  /// The same, a tenth as stiff as explicit integration with kSubstep bears.
-  void addBulletSprings() { addBulletSprings(0.1 * freeMassPerNode() / (kSubstep * kSubstep)); }
+  /// The same, as stiff as explicit integration with this substep bears well.
+  void addBulletSpringsForStep(double dt = kSubstep) { addBulletSprings(0.1 * freeMassPerNode() / (dt * dt)); }
 
   void step(int count, double dt = kSubstep) { m_bullet.step(count, btScalar(dt)); }
   /// Only our part of a substep, Bullet's left out; for Hook::manual.
@@ -100,6 +100,9 @@ inline ClothScene::Builder hangingRope(int links, double linkLength, double mass
     std::unique_ptr<btSoftBody> rope(
         btSoftBodyHelpers::CreateRope(info, btVector3(0, 0, 0), end, links - 1, pinned ? 1 : 0));
     for (int i = pinned ? 1 : 0; i < rope->m_nodes.size(); ++i) rope->setMass(i, btScalar(mass));
+    // setMass() makes Bullet take the shape of the first step for the shape at rest; a test may stretch it before that.
+    rope->updateConstants();
+    rope->m_bUpdateRtCst = false;
     return rope;
   };
 }

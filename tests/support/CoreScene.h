@@ -182,6 +182,14 @@ inline wetcloth::Fabric fabricOf(double capacity, double timeConstant) {
   return fabric;
 }
 
+/// Springs of these stiffnesses [N/m].
+inline wetcloth::HookeSprings::Parameters springsOf(double stiffness, double bendingStiffness = 10) {
+  wetcloth::HookeSprings::Parameters springs;
+  springs.stiffness = stiffness;
+  springs.bendingStiffness = bendingStiffness;
+  return springs;
+}
+
 /// Water [kg] that differs from node to node, up to 5 times the dry mass.
 inline std::vector<double> unevenWater(const wetcloth::WetCloth& cloth) {
   std::vector<double> water;

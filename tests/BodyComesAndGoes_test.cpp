@@ -1,0 +1,99 @@
+// Bodies leave a world, are deleted, and come back, whether or not the application told us.
+
+#include "tests/support/CoreScene.h"
+
+namespace wetcloth_test::core {
+namespace {
+
+void addEverything(wetcloth::WetCloth& cloth) {
+  cloth.add<wetcloth::Absorption>();
+  cloth.add<wetcloth::Wind>({btVector3(1, 0, 2)});
+  cloth.add<wetcloth::HookeSprings>(springsOf(200, 5));
+}
+
+class BodyComesAndGoes : public InEveryWorld {};
+
+// Memory checkers watch this one.
+TEST_P(BodyComesAndGoes, DeletedWhileWeKnowIt) {
+  CoreScene scene(GetParam(), hangingPatch(4));
+  std::vector<std::string> messages;
+  wetcloth::WetClothWorld wet(scene.world());
+  wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
+  addEverything(wet.add(scene.body()));
+  scene.bullet.step(5);
+  scene.deleteBody();
+  scene.bullet.step(5);
+  EXPECT_EQ(messages.size(), 1u);
+}
+
+TEST_P(BodyComesAndGoes, DeletedAndWeLeaveWithoutAnotherStep) {
+  CoreScene scene(GetParam(), hangingPatch(4));
+  wetcloth::WetClothWorld wet(scene.world());
+  wet.setLog({});
+  addEverything(wet.add(scene.body()));
+  scene.bullet.step(5);
+  scene.deleteBody();
+}
+
+TEST_P(BodyComesAndGoes, DeletedWithOthersLeftBehind) {
+  BulletWorld bullet(GetParam());
+  std::unique_ptr<btSoftBody> gone = hangingPatch(4).build(bullet.info());
+  wetcloth::ClothPatch patch = hangingPatch(4);
+  patch.origin = btVector3(50, 0, 0);
+  std::unique_ptr<btSoftBody> stays = patch.build(bullet.info());
+  bullet.add(*gone);
+  bullet.add(*stays);
+  {
+    wetcloth::WetClothWorld wet(bullet.world());
+    wet.setLog({});
+    addEverything(wet.add(*gone));
+    addEverything(wet.add(*stays));
+    bullet.step(5);
+    bullet.remove(*gone);
+    gone.reset();
+    const double before = wet.find(*stays)->ledger().held;
+    bullet.step(5);
+    EXPECT_GT(wet.find(*stays)->ledger().held, before);
+    EXPECT_TRUE(isFinite(*stays));
+  }
+  bullet.remove(*stays);
+}
+
+TEST_P(BodyComesAndGoes, RemovedAndAddedAgainItGoesOn) {
+  CoreScene scene(GetParam(), hangingPatch(4));
+  std::vector<std::string> messages;
+  wetcloth::WetClothWorld wet(scene.world());
+  wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
+  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
+  cloth.add<wetcloth::Absorption>();
+  scene.bullet.step(24);
+  const double before = cloth.ledger().held;
+  scene.bullet.remove(scene.body());
+  scene.bullet.step(24);
+  EXPECT_EQ(cloth.ledger().held, before) << "no time passes for a body that is not in the world";
+  EXPECT_EQ(messages.size(), 1u) << "said once";
+  scene.bullet.add(scene.body());
+  scene.bullet.step(24);
+  EXPECT_NEAR(cloth.meanSaturation(), 1 - std::exp(-0.2), 1e-5);
+  EXPECT_TRUE(isFinite(scene.body()));
+}
+
+// The right order: forget the cloth, then delete the body.
+TEST_P(BodyComesAndGoes, ForgottenThenDeleted) {
+  CoreScene scene(GetParam(), hangingPatch(4));
+  int messages = 0;
+  wetcloth::WetClothWorld wet(scene.world());
+  wet.setLog([&messages](const std::string&) { ++messages; });
+  addEverything(wet.add(scene.body()));
+  scene.bullet.step(5);
+  wet.remove(scene.body());
+  scene.deleteBody();
+  scene.bullet.step(5);
+  EXPECT_TRUE(wet.cloths().empty());
+  EXPECT_EQ(messages, 0);
+}
+
+WETCLOTH_IN_EVERY_WORLD(BodyComesAndGoes);
+
+}  // namespace
+}  // namespace wetcloth_test::core

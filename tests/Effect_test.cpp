@@ -1,0 +1,232 @@
+// The order of a step, effects of the application's own, and what happens to one that fails.
+
+#include "tests/support/CoreScene.h"
+
+#include <stdexcept>
+
+namespace wetcloth_test::core {
+namespace {
+
+using wetcloth::Stage;
+using Names = std::vector<std::string>;
+
+void addRecorder(wetcloth::WetCloth& cloth, Stage stage, const std::string& name, Names& names) {
+  addCall(
+      cloth, [name, &names](wetcloth::WetCloth&, const wetcloth::Step&) { names.push_back(name); }, stage);
+}
+
+class EffectOrder : public InEveryWorld {};
+
+TEST_P(EffectOrder, IsThatOfTheStagesWhateverTheOrderOfAdding) {
+  const std::vector<std::pair<Stage, std::string>> inOrder = {
+      {Stage::sources, "sources"},   {Stage::transport, "transport"}, {Stage::losses, "losses"},
+      {Stage::material, "material"}, {Stage::forces, "forces"},       {Stage::elasticity, "elasticity"}};
+  const Names expected = {"sources", "transport", "losses", "material", "forces", "elasticity"};
+  for (const std::vector<std::size_t>& order :
+       {std::vector<std::size_t>{0, 1, 2, 3, 4, 5}, {5, 4, 3, 2, 1, 0}, {3, 5, 0, 4, 1, 2}}) {
+    CoreScene scene(GetParam());
+    wetcloth::WetClothWorld wet(scene.world());
+    wetcloth::WetCloth& cloth = wet.add(scene.body());
+    Names names;
+    for (const std::size_t i : order) addRecorder(cloth, inOrder[i].first, inOrder[i].second, names);
+    scene.bullet.step(1);
+    EXPECT_EQ(names, expected);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(cloth.effects()[i]->stage(), inOrder[i].first);
+  }
+}
+
+TEST_P(EffectOrder, WithinAStageIsThatOfAdding) {
+  CoreScene scene(GetParam());
+  wetcloth::WetClothWorld wet(scene.world());
+  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  Names names;
+  for (const char* name : {"b", "a", "c"}) addRecorder(cloth, Stage::forces, name, names);
+  scene.bullet.step(1);
+  EXPECT_EQ(names, (Names{"b", "a", "c"}));
+}
+
+// Masses are written between `material` and `forces`: before, the old mass; after, the new one.
+TEST_P(EffectOrder, MassesAreCommittedBetweenMaterialAndForces) {
+  CoreScene scene(GetParam());
+  wetcloth::WetClothWorld wet(scene.world());
+  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  const btScalar dry = scene.body().m_nodes[12].m_im;
+  cloth.add<wetcloth::Absorption>();
+  btScalar seen[2] = {0, 0};
+  addCall(
+      cloth, [&](wetcloth::WetCloth& c, const wetcloth::Step&) { seen[0] = c.body().m_nodes[12].m_im; },
+      Stage::material);
+  addCall(
+      cloth, [&](wetcloth::WetCloth& c, const wetcloth::Step&) { seen[1] = c.body().m_nodes[12].m_im; }, Stage::forces);
+  scene.bullet.step(1);
+  EXPECT_EQ(seen[0], dry);
+  EXPECT_LT(seen[1], dry);
+}
+
+// Order of adding Absorption and Wind is of no consequence, to the last bit.
+TEST_P(EffectOrder, HasNoInfluenceOnTheResult) {
+  std::vector<btScalar> results[2];
+  for (const bool windFirst : {false, true}) {
+    CoreScene scene(GetParam(), hangingPatch(5));
+    wetcloth::WetClothWorld wet(scene.world());
+    wetcloth::WetCloth& cloth = wet.add(scene.body());
+    if (windFirst) cloth.add<wetcloth::Wind>({btVector3(0, 0, 3)});
+    cloth.add<wetcloth::Absorption>();
+    if (!windFirst) cloth.add<wetcloth::Wind>({btVector3(0, 0, 3)});
+    scene.bullet.step(60);
+    results[windFirst] = stateOf(scene.body());
+  }
+  EXPECT_TRUE(sameBits(results[0], results[1]));
+}
+
+WETCLOTH_IN_EVERY_WORLD(EffectOrder);
+
+// An effect of somebody else's, as short as can be: a sponge below y = 0 that wets what it touches.
+class Sponge : public wetcloth::Effect {
+ public:
+  struct Parameters {
+    double rate = 0.5;  // of a node's capacity per second
+  };
+  explicit Sponge(Parameters parameters) : m_parameters(parameters) {
+    if (!(m_parameters.rate > 0)) throw std::invalid_argument("Sponge.rate must be > 0");
+  }
+  const char* name() const override { return "Sponge"; }
+  Stage stage() const override { return Stage::sources; }
+  void apply(wetcloth::WetCloth& cloth, const wetcloth::Step& step) override {
+    wetcloth::Water& water = cloth.water();
+    for (std::size_t i = 0; i < water.size(); ++i) {
+      if (cloth.body().m_nodes[int(i)].m_x.y() > 0) continue;
+      const double room = water.capacity(i) - water.held(i);
+      water.absorb(i, std::min(room, m_parameters.rate * water.capacity(i) * step.dt), 0, 0, 0);
+    }
+  }
+
+ private:
+  Parameters m_parameters;
+};
+
+class OwnEffect : public InEveryWorld {};
+
+TEST_P(OwnEffect, WorksLikeOneOfOurs) {
+  CoreScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
+  wetcloth::WetClothWorld wet(scene.world());
+  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
+  const Sponge& sponge = cloth.add<Sponge>({0.25});
+  EXPECT_EQ(cloth.effects()[0].get(), &sponge);
+  scene.bullet.step(240);
+  EXPECT_NEAR(cloth.meanSaturation(), 0.25, 1e-5);  // 240 float steps make a second
+  EXPECT_NEAR(1 / double(scene.body().m_nodes[5].m_im), cloth.dryMass(5) * 1.25, 1e-5 * cloth.dryMass(5));
+  EXPECT_THROW(cloth.add<Sponge>({-1}), std::invalid_argument);
+  EXPECT_EQ(cloth.effects().size(), 1u);
+}
+
+class Refuses : public wetcloth::Effect {
+ public:
+  const char* name() const override { return "Refuses"; }
+  Stage stage() const override { return Stage::forces; }
+  void attach(wetcloth::WetCloth&) override { throw std::invalid_argument("Refuses: not this body"); }
+  void apply(wetcloth::WetCloth&, const wetcloth::Step&) override { FAIL(); }
+};
+
+TEST_P(OwnEffect, ThatRefusesABodyIsNotAdded) {
+  CoreScene scene(GetParam());
+  wetcloth::WetClothWorld wet(scene.world());
+  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  EXPECT_THROW(cloth.add(std::make_unique<Refuses>()), std::invalid_argument);
+  EXPECT_TRUE(cloth.effects().empty());
+  EXPECT_THROW(cloth.add(std::unique_ptr<wetcloth::Effect>()), std::invalid_argument);
+  scene.bullet.step(1);
+}
+
+// The contract says that apply() never throws; one that does is removed, with a message, and the rest goes on.
+TEST_P(OwnEffect, ThatThrowsIsRemovedAndTheWorldGoesOn) {
+  for (const bool standard : {true, false}) {
+    CoreScene scene(GetParam());
+    wetcloth::WetClothWorld wet(scene.world());
+    std::vector<std::string> messages;
+    wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
+    wetcloth::WetCloth& cloth = wet.add(scene.body());
+    Names names;
+    addRecorder(cloth, Stage::sources, "before", names);
+    addCall(
+        cloth,
+        [standard](wetcloth::WetCloth&, const wetcloth::Step&) {
+          if (standard) throw std::runtime_error("out of soap");
+          throw 42;
+        },
+        Stage::losses);
+    addRecorder(cloth, Stage::losses, "same stage", names);
+    addRecorder(cloth, Stage::forces, "after", names);
+    EXPECT_NO_THROW(scene.bullet.step(1));
+    EXPECT_EQ(names, (Names{"before", "same stage", "after"}));
+    EXPECT_EQ(cloth.effects().size(), 3u);
+    ASSERT_EQ(messages.size(), 1u);
+    EXPECT_NE(messages[0].find("Call"), std::string::npos) << "names the effect: " << messages[0];
+    if (standard) {
+      EXPECT_NE(messages[0].find("out of soap"), std::string::npos) << messages[0];
+    }
+    scene.bullet.step(5);
+    EXPECT_EQ(names.size(), 18u);
+    EXPECT_EQ(messages.size(), 1u);
+    EXPECT_TRUE(isFinite(scene.body()));
+  }
+}
+
+// An effect that is removed because it failed gives back what it changed, like any other that is removed.
+class FailsAndGivesBack : public wetcloth::Effect {
+ public:
+  explicit FailsAndGivesBack(bool& gaveBack) : m_gaveBack(gaveBack) {}
+  const char* name() const override { return "FailsAndGivesBack"; }
+  Stage stage() const override { return Stage::material; }
+  void detach(wetcloth::WetCloth&) override { m_gaveBack = true; }
+  void apply(wetcloth::WetCloth&, const wetcloth::Step&) override { throw std::runtime_error("failed"); }
+
+ private:
+  bool& m_gaveBack;
+};
+
+TEST_P(OwnEffect, ThatFailsIsDetachedBeforeItIsRemoved) {
+  CoreScene scene(GetParam());
+  wetcloth::WetClothWorld wet(scene.world());
+  wet.setLog({});
+  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  bool gaveBack = false;
+  cloth.add(std::make_unique<FailsAndGivesBack>(gaveBack));
+  EXPECT_NO_THROW(scene.bullet.step(1));
+  EXPECT_TRUE(cloth.effects().empty());
+  EXPECT_TRUE(gaveBack);
+}
+
+// A push is a velocity that Bullet can use: never NaN, never on a pinned node.
+TEST_P(OwnEffect, CannotPushNonsense) {
+  CoreScene scene(GetParam(), hangingPatch(4));
+  wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
+  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  const std::vector<btScalar> before = stateOf(scene.body());
+  const btScalar nan = std::numeric_limits<btScalar>::quiet_NaN();
+  const btScalar infinity = std::numeric_limits<btScalar>::infinity();
+  for (const btVector3& bad : {btVector3(nan, 0, 0), btVector3(0, infinity, 0), btVector3(0, -infinity, infinity)}) {
+    for (int i = 0; i < cloth.nodeCount(); ++i) cloth.push(scene.body().m_nodes[i], bad);
+  }
+  cloth.push(scene.body().m_nodes[15], btVector3(1, 1, 1));  // pinned
+  EXPECT_TRUE(sameBits(stateOf(scene.body()), before));
+}
+
+TEST_P(OwnEffect, ThatIsNotOursCannotBeRemoved) {
+  CoreScene scene(GetParam());
+  wetcloth::WetClothWorld wet(scene.world());
+  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::Absorption stranger({});
+  EXPECT_THROW(cloth.remove(stranger), std::invalid_argument);
+  wetcloth::Absorption& ours = cloth.add<wetcloth::Absorption>();
+  scene.bullet.step(5);
+  const double before = cloth.ledger().held;
+  cloth.remove(ours);
+  scene.bullet.step(5);
+  EXPECT_EQ(cloth.ledger().held, before);
+}
+
+WETCLOTH_IN_EVERY_WORLD(OwnEffect);
+
+}  // namespace
+}  // namespace wetcloth_test::core

@@ -1,0 +1,57 @@
+// Position-based links see only the ratios of masses, and gravity is an acceleration: a cloth that hangs under
+// nothing but its own weight does the same dry and wet. Nothing may fake a sag there.
+
+#include "tests/support/CoreScene.h"
+
+namespace wetcloth_test::core {
+namespace {
+
+class UniformMassIsInvisible : public testing::TestWithParam<WorldKind> {};
+
+// The fact. 2 is a power of the float's base, so not even rounding differs.
+TEST_P(UniformMassIsInvisible, InPlainBullet) {
+  CoreScene light(GetParam(), hangingPatch(8));
+  CoreScene heavy(GetParam(), [](btSoftBodyWorldInfo& info) {
+    wetcloth::ClothPatch patch = hangingPatch(8);
+    patch.arealDensity *= 2;
+    return patch.build(info);
+  });
+  light.bullet.step(240);
+  heavy.bullet.step(240);
+  EXPECT_TRUE(sameBits(stateOf(light.body()), stateOf(heavy.body())));
+}
+
+TEST_P(UniformMassIsInvisible, AWetClothHangsLikeADryOne) {
+  CoreScene dry(GetParam(), hangingPatch(8));
+  CoreScene soaked(GetParam(), hangingPatch(8));
+  wetcloth::WetClothWorld wet(soaked.world());
+  wetcloth::WetCloth& cloth = wet.add(soaked.body(), fabricOf(1, 10));
+  dry.bullet.step(120);
+  soaked.bullet.step(120);
+  cloth.setSaturation(1);  // twice as heavy
+  dry.bullet.step(240);
+  soaked.bullet.step(240);
+  EXPECT_TRUE(sameBits(stateOf(soaked.body()), stateOf(dry.body())));
+}
+
+TEST_P(UniformMassIsInvisible, AClothThatSoaksEvenlyHangsLikeADryOne) {
+  CoreScene dry(GetParam(), hangingPatch(8));
+  CoreScene soaked(GetParam(), hangingPatch(8));
+  wetcloth::WetClothWorld wet(soaked.world());
+  wetcloth::WetCloth& cloth = wet.add(soaked.body(), fabricOf(5, 0.3));
+  wetcloth::Absorption::Parameters still;
+  still.conservesMomentum = false;  // water at rest would slow the cloth down
+  cloth.add<wetcloth::Absorption>(still);
+  dry.bullet.step(360);
+  soaked.bullet.step(360);
+  ASSERT_GT(cloth.meanSaturation(), 0.99);
+  // Masses round now, and a hanging cloth swings for long; a stale link constant shows as centimetres.
+  EXPECT_NEAR(totalLength(soaked.body()) / totalLength(dry.body()), 1, 1e-3);
+  EXPECT_NEAR(meanPosition(soaked.body()).y(), meanPosition(dry.body()).y(), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(, UniformMassIsInvisible, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
+                         [](const auto& test) { return std::string(nameOf(test.param)); });
+
+}  // namespace
+}  // namespace wetcloth_test::core

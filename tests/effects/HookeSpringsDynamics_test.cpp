@@ -1,0 +1,227 @@
+// Springs in motion: the force itself, conserved quantities, periods, stiff springs and long steps.
+
+#include "tests/support/ClothScene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace wetcloth_test {
+namespace {
+
+using wetcloth::Hook;
+using wetcloth::HookeSprings;
+
+constexpr double kPi = 3.14159265358979323846;
+const btVector3 kNoGravity(0, 0, 0);
+
+HookeSprings::Parameters springs(double stiffness) {
+  HookeSprings::Parameters parameters;
+  parameters.stiffness = stiffness;
+  return parameters;
+}
+
+// --- the force -----------------------------------------------------------------------------------------------------
+
+TEST(HookeForce, PullsAStretchedEndTowardsTheOther) {
+  // 3-4-5: stretched from 4 to 5 m, 10 N/m x 1 m along (0.6, 0.8, 0)
+  const btVector3 force = wetcloth::hookeForce(btVector3(1, 1, 1), btVector3(4, 5, 1), 4, 10);
+  EXPECT_NEAR(force.x(), 6, 1e-5);
+  EXPECT_NEAR(force.y(), 8, 1e-5);
+  EXPECT_NEAR(force.z(), 0, 1e-5);
+}
+
+TEST(HookeForce, PushesACompressedEndAway) {
+  EXPECT_NEAR(wetcloth::hookeForce(btVector3(0, 0, 0), btVector3(1, 0, 0), 3, 10).x(), -20, 1e-4);
+}
+
+TEST(HookeForce, IsZeroAtRestLengthAndWhereTheEndsMeet) {
+  EXPECT_NEAR(wetcloth::hookeForce(btVector3(0, 0, 0), btVector3(0, 2, 0), 2, 1e3).length(), 0, 1e-3);
+  EXPECT_EQ(wetcloth::hookeForce(btVector3(1, 2, 3), btVector3(1, 2, 3), 1, 10), kNoGravity);
+}
+
+TEST(HookeForce, ActsAlikeOnBothEnds) {
+  const btVector3 a(btScalar(0.1), 2, -1);
+  const btVector3 b(3, btScalar(0.4), 1);
+  EXPECT_LE((wetcloth::hookeForce(a, b, 1, 7) + wetcloth::hookeForce(b, a, 1, 7)).length(), 1e-5);
+}
+
+// --- conserved quantities --------------------------------------------------------------------------------------------
+
+/// Stretches and shakes a rope that lies somewhere in space.
+void disturb(btSoftBody& body, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    btSoftBody::Node& node = body.m_nodes[i];
+    if (node.m_im == 0) continue;
+    const double x = number(random);
+    const double y = number(random);
+    const double z = number(random);
+    node.m_x += btVector3(btScalar(0.03 * x), btScalar(0.03 * y), btScalar(0.03 * z));
+    node.m_q = node.m_x;
+    node.m_v = btVector3(btScalar(z), btScalar(x), btScalar(y));
+    node.m_vn = node.m_v;
+  }
+}
+
+/// Kinetic and elastic energy of a body whose links are springs of one stiffness [J].
+double energy(const btSoftBody& body, double stiffness) {
+  double sum = 0;
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    const btSoftBody::Node& node = body.m_nodes[i];
+    if (node.m_im > 0) sum += double(node.m_v.length2()) / double(node.m_im) / 2;
+  }
+  for (int i = 0; i < body.m_links.size(); ++i) {
+    const btSoftBody::Link& link = body.m_links[i];
+    const double stretch = double((link.m_n[0]->m_x - link.m_n[1]->m_x).length()) - double(link.m_rl);
+    sum += stiffness * stretch * stretch / 2;
+  }
+  return sum;
+}
+
+class HookeSpringsDynamics : public InEveryWorld {};
+
+TEST_P(HookeSpringsDynamics, FreeChainKeepsItsMomentum) {
+  for (double stiffness : {10.0, 1e4}) {
+    ClothScene scene(GetParam(), kNoGravity, hangingRope(10, 0.1, 0.01, false));
+    scene.cloth().add<HookeSprings>(springs(stiffness));
+    scene.cloth().setSaturation(0.5);
+    disturb(scene.body(), 3);
+    setVelocity(scene.body(), btVector3(0, 0, 0));
+    for (int i = 0; i < 5; ++i) scene.node(i).m_v = scene.node(i).m_vn = btVector3(1, btScalar(0.5), -1);
+    const auto before = momentum(scene.body());
+    scene.step(256, kExactSubstep);
+    const auto after = momentum(scene.body());
+    // The implicit world solves by conjugate gradients to 1e-7 in either precision; float32 rounds each of 256 steps
+    // and 10 nodes to 1e-7 of its position, over a step of 4 ms.
+    const double size = std::hypot(before[0], before[1], before[2]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(after[k], before[k], size * (kIsDouble ? 1e-9 : 2e-4)) << k << " " << stiffness;
+    }
+  }
+}
+
+TEST_P(HookeSpringsDynamics, FreeFallIsAsWithoutSprings) {
+  const auto fallen = [](bool withSprings) {
+    ClothScene scene(GetParam(), kEarthGravity, hangingRope(10, 0.1, 0.01, false));
+    if (withSprings) scene.cloth().add<HookeSprings>(springs(1000));
+    scene.step(240);
+    std::vector<double> heights;
+    for (int i = 0; i <= 10; ++i) heights.push_back(double(scene.node(i).m_x.y()));
+    return heights;
+  };
+  const std::vector<double> with = fallen(true);
+  const std::vector<double> without = fallen(false);
+  for (std::size_t i = 0; i <= 10; ++i) {
+    // Float32 knows a height of 5 m to 2.4e-7 m, and so a velocity to 6e-5 m/s, over and over for 240 steps.
+    EXPECT_NEAR(with[i], without[i], kIsDouble ? 1e-6 : 1e-3) << i;
+    EXPECT_NEAR(with[i], -0.1 * double(i) - 9.81 / 2, 9.81 * kSubstep) << i;  // first order in the step
+  }
+}
+
+// Along its own line a chain is linear, and backward Euler only takes energy away.
+TEST_P(HookeSpringsDynamics, EnergyOfAStretchedChainNeverRises) {
+  for (double stiffness : {1.0, 100.0, 1e4, 1e6}) {
+    for (double dt : {1.0 / 240, 1.0 / 60, 1.0 / 10}) {
+      ClothScene scene(GetParam(), kNoGravity, hangingRope(10, 0.1, 0.01, false));
+      scene.cloth().add<HookeSprings>(springs(stiffness));
+      for (int i = 0; i <= 10; ++i) {
+        scene.node(i).m_x *= btScalar(1 + 0.02 * i);
+        scene.node(i).m_q = scene.node(i).m_x;
+      }
+      const double first = energy(scene.body(), stiffness);
+      double before = first;
+      for (int step = 0; step < 60; ++step) {
+        scene.step(1, dt);
+        const double after = energy(scene.body(), stiffness);
+        // Float32 knows a spring's length to 1e-7 m: k x 0.1 m x 1e-7 m, of a start with k (0.03 m)^2.
+        ASSERT_LE(after, before + first * (kIsDouble ? 1e-6 : 3e-5))
+            << "k " << stiffness << " dt " << dt << " " << step;
+        before = after;
+      }
+      EXPECT_LT(before, first);
+    }
+  }
+}
+
+// Crumpled, compressed springs give way sideways and the energy of a step may rise a little; it must not run away.
+TEST_P(HookeSpringsDynamics, EnergyOfAShakenChainStaysBounded) {
+  for (double stiffness : {1.0, 100.0, 1e4, 1e6}) {
+    for (double dt : {1.0 / 240, 1.0 / 60, 1.0 / 10}) {
+      ClothScene scene(GetParam(), kNoGravity, hangingRope(10, 0.1, 0.01, false));
+      scene.cloth().add<HookeSprings>(springs(stiffness));
+      disturb(scene.body(), 5);
+      const double first = energy(scene.body(), stiffness);
+      double most = 0;
+      for (int step = 0; step < 240; ++step) {
+        scene.step(1, dt);
+        most = std::max(most, energy(scene.body(), stiffness));
+      }
+      EXPECT_LT(most, 1.05 * first) << "k " << stiffness << " dt " << dt;
+      EXPECT_LT(energy(scene.body(), stiffness), 0.9 * first) << "k " << stiffness << " dt " << dt;
+    }
+  }
+}
+
+TEST_P(HookeSpringsDynamics, StiffSpringsAndLongStepsStayFinite) {
+  for (double stiffness : {1.0, 1e6, 1e9}) {
+    for (double dt : {1e-4, 1.0 / 240, 1.0 / 10, 1.0}) {
+      ClothScene scene(GetParam(), kEarthGravity, hangingRope(10, 0.1, 1e-5));
+      scene.cloth().add<HookeSprings>(springs(stiffness));
+      disturb(scene.body(), 9);
+      scene.step(50, dt);
+      // Hung 1 m below its pin, it can fall and swing, and a soft spring (1 N/m) is stretched by 1e-4 N x 10 at most.
+      const double reach = 2 + 9.81 * dt * dt * 50;
+      for (int i = 0; i <= 10; ++i) {
+        const double distance = double(scene.node(i).m_x.length());
+        ASSERT_TRUE(std::isfinite(distance)) << stiffness << " " << dt;
+        ASSERT_LT(distance, reach) << stiffness << " " << dt << " node " << i;
+      }
+    }
+  }
+}
+
+/// Period of a mass on a pinned spring, from its passages through the rest length [s].
+double period(WorldKind world, double stiffness, double mass, double dt, int periods) {
+  ClothScene scene(world, kNoGravity, hangingRope(1, 1, mass));
+  scene.cloth().add<HookeSprings>(springs(stiffness));
+  scene.node(1).m_x.setY(btScalar(-1.1));
+  scene.node(1).m_q = scene.node(1).m_x;
+  double previous = -1.1;
+  double first = -1;
+  int passages = 0;
+  for (int step = 1; step < 1000000; ++step) {
+    scene.step(1, dt);
+    const double y = double(scene.node(1).m_x.y());
+    if ((y + 1) * (previous + 1) < 0) {
+      const double time = dt * (step - (y + 1) / (y - previous));
+      if (first < 0) {
+        first = time;
+      } else if (++passages == 2 * periods) {
+        return (time - first) / periods;
+      }
+    }
+    previous = y;
+  }
+  return -1;
+}
+
+TEST_P(HookeSpringsDynamics, PeriodOfAMassOnASpringApproachesTheClosedForm) {
+  const double exact = 2 * kPi * std::sqrt(0.1 / 40);  // 0.314 s
+  for (double dt : {1.0 / 256, 1.0 / 1024}) {
+    // Backward Euler turns by atan(w dt) in a step, whose error is (w dt)^2 / 3.
+    const double omega = 20;
+    const double discrete = 2 * kPi * dt / std::atan(omega * dt);
+    // Read off between two steps, to second order in w dt.
+    EXPECT_NEAR(period(GetParam(), 40, 0.1, dt, 3) / discrete, 1, 1e-3) << dt;
+  }
+  EXPECT_NEAR(period(GetParam(), 40, 0.1, 1.0 / 1024, 3) / exact, 1, 2e-3);
+}
+
+WETCLOTH_IN_EVERY_WORLD(HookeSpringsDynamics);
+
+}  // namespace
+}  // namespace wetcloth_test
