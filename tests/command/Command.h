@@ -19,7 +19,7 @@ struct Outcome {
 /// Runs a program to its end.
 Outcome runProgram(const std::vector<std::string>& words);
 /// Runs `wetcloth` with these arguments.
-Outcome wetcloth(const std::vector<std::string>& arguments);
+Outcome runWetcloth(const std::vector<std::string>& arguments);
 
 /// The name of this test program's precision, for --precision.
 std::string ownPrecision();

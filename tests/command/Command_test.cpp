@@ -39,7 +39,7 @@ Outcome runProgram(const std::vector<std::string>& words) {
           contents(directory.path("err"))};
 }
 
-Outcome wetcloth(const std::vector<std::string>& arguments) {
+Outcome runWetcloth(const std::vector<std::string>& arguments) {
   std::vector<std::string> words{WETCLOTH_COMMAND};
   words.insert(words.end(), arguments.begin(), arguments.end());
   return runProgram(words);
@@ -88,14 +88,14 @@ std::string TemporaryDirectory::write(const std::string& name, const std::string
 }  // namespace command
 
 TEST(Command, VersionAndHelpEndWithStatusZero) {
-  EXPECT_EQ(command::wetcloth({"--version"}).status, 0);
-  EXPECT_EQ(command::wetcloth({"--version"}).out.rfind("wetcloth ", 0), 0u);
+  EXPECT_EQ(command::runWetcloth({"--version"}).status, 0);
+  EXPECT_EQ(command::runWetcloth({"--version"}).out.rfind("wetcloth ", 0), 0u);
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
            {"--help"}, {"run", "--help"}, {"fall", "--help"}, {"validate", "--help"}}) {
-    const command::Outcome outcome = command::wetcloth(arguments);
+    const command::Outcome outcome = command::runWetcloth(arguments);
     EXPECT_EQ(outcome.status, 0);
     EXPECT_NE(outcome.out.find("--help"), std::string::npos);
     EXPECT_EQ(outcome.err, "");
   }
-  EXPECT_NE(command::wetcloth({"--help"}).out.find("Examples:"), std::string::npos);
+  EXPECT_NE(command::runWetcloth({"--help"}).out.find("Examples:"), std::string::npos);
 }

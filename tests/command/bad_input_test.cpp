@@ -145,7 +145,7 @@ TEST_P(BadSceneTest, IsRefusedInOneLine) {
   const std::string file = directory.write("scene.json", scene.dump());
   std::vector<std::string> words = GetParam().words;
   words.push_back(file);
-  expectRefusal(wetcloth({"validate", file}), words);
+  expectRefusal(runWetcloth({"validate", file}), words);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, BadSceneTest, testing::ValuesIn(badScenes()),
@@ -153,26 +153,26 @@ INSTANTIATE_TEST_SUITE_P(Scenes, BadSceneTest, testing::ValuesIn(badScenes()),
 
 TEST(CommandBadInput, TheSceneItselfIsGood) {
   const TemporaryDirectory directory;
-  EXPECT_EQ(wetcloth({"validate", directory.write("scene.json", smallScene().dump())}).status, 0);
+  EXPECT_EQ(runWetcloth({"validate", directory.write("scene.json", smallScene().dump())}).status, 0);
 }
 
 TEST(CommandBadInput, FilesThatAreNoScenes) {
   const TemporaryDirectory directory;
   for (const char* command : {"run", "validate"}) {
-    expectRefusal(wetcloth({command, directory.path("none.json")}), {directory.path("none.json"), "no such file"});
-    expectRefusal(wetcloth({command, directory.path("")}), {directory.path(""), "directory"});
+    expectRefusal(runWetcloth({command, directory.path("none.json")}), {directory.path("none.json"), "no such file"});
+    expectRefusal(runWetcloth({command, directory.path("")}), {directory.path(""), "directory"});
     const std::string empty = directory.write("empty.json", "");
-    expectRefusal(wetcloth({command, empty}), {empty, "is empty"});
+    expectRefusal(runWetcloth({command, empty}), {empty, "is empty"});
     const std::string broken = directory.write("broken.json", "{\n  \"world\": soft_rigid\n}\n");
-    expectRefusal(wetcloth({command, broken}), {broken, "not JSON", "line 2, column 12"});
+    expectRefusal(runWetcloth({command, broken}), {broken, "not JSON", "line 2, column 12"});
     const std::string nan = directory.write("nan.json", "{\"step_s\": NaN}");
-    expectRefusal(wetcloth({command, nan}), {nan, "not JSON", "line 1, column 12"});
+    expectRefusal(runWetcloth({command, nan}), {nan, "not JSON", "line 1, column 12"});
     const std::string huge = directory.write("huge.json", "{\"step_s\": 1e999}");
-    expectRefusal(wetcloth({command, huge}), {huge, "1e999", "finite"});
+    expectRefusal(runWetcloth({command, huge}), {huge, "1e999", "finite"});
     const std::string twice = directory.write("twice.json", "{\"step_s\": 0.01, \"step_s\": 0.02}");
-    expectRefusal(wetcloth({command, twice}), {twice, "\"step_s\"", "twice"});
+    expectRefusal(runWetcloth({command, twice}), {twice, "\"step_s\"", "twice"});
     const std::string list = directory.write("list.json", "[]");
-    expectRefusal(wetcloth({command, list}), {list, "must be an object"});
+    expectRefusal(runWetcloth({command, list}), {list, "must be an object"});
   }
 }
 
@@ -187,33 +187,33 @@ TEST(CommandBadInput, MeshesThatAreNoCloth) {
     const std::string file = directory.write("scene.json", scene.dump());
     std::vector<std::string> words = mesh.words;
     words.insert(words.end(), {file, "/cloths/0/obj", "\"mesh.obj\""});
-    expectRefusal(wetcloth({"validate", file}), words);
+    expectRefusal(runWetcloth({"validate", file}), words);
   }
 }
 
 TEST(CommandBadInput, TargetsThatCannotBeWritten) {
   const TemporaryDirectory directory;
   const std::string file = directory.write("scene.json", smallScene().dump());
-  expectRefusal(wetcloth({"run", file, "--json", "/dev/null/result.json"}), {"--json", "/dev/null/result.json"});
-  expectRefusal(wetcloth({"run", file, "--json", directory.path("")}), {"--json", directory.path("")});
-  expectRefusal(wetcloth({"run", file, "--frames", "/dev/null/frames"}), {"--frames", "/dev/null/frames"});
-  expectRefusal(wetcloth({"fall", "--height", "0.01", "--json", "/dev/null/result.json"}), {"--json"});
+  expectRefusal(runWetcloth({"run", file, "--json", "/dev/null/result.json"}), {"--json", "/dev/null/result.json"});
+  expectRefusal(runWetcloth({"run", file, "--json", directory.path("")}), {"--json", directory.path("")});
+  expectRefusal(runWetcloth({"run", file, "--frames", "/dev/null/frames"}), {"--frames", "/dev/null/frames"});
+  expectRefusal(runWetcloth({"fall", "--height", "0.01", "--json", "/dev/null/result.json"}), {"--json"});
 }
 
 TEST(CommandBadInput, Usage) {
   const TemporaryDirectory directory;
   const std::string file = directory.write("scene.json", smallScene().dump());
-  expectRefusal(wetcloth({}), {"run", "fall", "validate"});
-  expectRefusal(wetcloth({"rum", file}), {"\"rum\"", "\"run\""});
-  expectRefusal(wetcloth({"run"}), {"scene"});
-  expectRefusal(wetcloth({"run", file, "--no-such-option"}), {"--no-such-option"});
-  expectRefusal(wetcloth({"run", file, "--quality", "acurate"}), {"--quality", "\"acurate\"", "\"accurate\""});
-  expectRefusal(wetcloth({"run", file, "--duration", "-1"}), {"--duration", "-1"});
-  expectRefusal(wetcloth({"run", file, "--duration", "nan"}), {"--duration", "nan"});
-  expectRefusal(wetcloth({"run", file, "--frame-count", "0"}), {"--frame-count", "0"});
-  expectRefusal(wetcloth({"fall", "--mode", "vacuum"}), {"--mode", "\"vacuum\"", "paper, physical"});
-  expectRefusal(wetcloth({"fall", "--world", "flat"}), {"--world", "\"flat\"", "deformable"});
+  expectRefusal(runWetcloth({}), {"run", "fall", "validate"});
+  expectRefusal(runWetcloth({"rum", file}), {"\"rum\"", "\"run\""});
+  expectRefusal(runWetcloth({"run"}), {"scene"});
+  expectRefusal(runWetcloth({"run", file, "--no-such-option"}), {"--no-such-option"});
+  expectRefusal(runWetcloth({"run", file, "--quality", "acurate"}), {"--quality", "\"acurate\"", "\"accurate\""});
+  expectRefusal(runWetcloth({"run", file, "--duration", "-1"}), {"--duration", "-1"});
+  expectRefusal(runWetcloth({"run", file, "--duration", "nan"}), {"--duration", "nan"});
+  expectRefusal(runWetcloth({"run", file, "--frame-count", "0"}), {"--frame-count", "0"});
+  expectRefusal(runWetcloth({"fall", "--mode", "vacuum"}), {"--mode", "\"vacuum\"", "paper, physical"});
+  expectRefusal(runWetcloth({"fall", "--world", "flat"}), {"--world", "\"flat\"", "deformable"});
   for (const char* height : {"0", "-1", "nan", "inf", "1e9", "high"}) {
-    expectRefusal(wetcloth({"fall", "--height", height}), {"--height"});
+    expectRefusal(runWetcloth({"fall", "--height", height}), {"--height"});
   }
 }

@@ -15,7 +15,7 @@ constexpr double substep = 1.0 / 240;
 Json fall(std::vector<std::string> more) {
   std::vector<std::string> arguments{"fall", "--json", "-", "--precision", ownPrecision()};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  const Outcome outcome = wetcloth(arguments);
+  const Outcome outcome = runWetcloth(arguments);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   return outcome.status == 0 ? Json::parse(outcome.out).at("cases") : Json::array();
 }
@@ -81,7 +81,7 @@ TEST(Fall, OtherHeights) {
 }
 
 TEST(Fall, TableShowsEveryCaseWithItsClosedForm) {
-  const Outcome outcome = wetcloth({"fall", "--mode", "physical", "--height", "0.5"});
+  const Outcome outcome = runWetcloth({"fall", "--mode", "physical", "--height", "0.5"});
   EXPECT_EQ(outcome.status, 0);
   for (const char* word : {"bullet", "dry", "saturated", "closed form", "error", "does not halve the time"}) {
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word;

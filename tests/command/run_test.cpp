@@ -14,7 +14,7 @@ using namespace command;
 Json runScene(const std::string& file, std::vector<std::string> more = {}) {
   std::vector<std::string> arguments{"run", file, "--json", "-", "--precision", ownPrecision()};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  const Outcome outcome = wetcloth(arguments);
+  const Outcome outcome = runWetcloth(arguments);
   EXPECT_EQ(outcome.status, 0) << file << ": " << outcome.err;
   return outcome.status == 0 ? Json::parse(outcome.out) : Json();
 }
@@ -141,7 +141,7 @@ TEST(Run, ASceneDecidesItsPrecision) {
     Json scene = smallScene();
     scene["precision"] = precision;
     const TemporaryDirectory directory;
-    const Outcome outcome = wetcloth({"run", directory.write("scene.json", scene.dump()), "--json", "-"});
+    const Outcome outcome = runWetcloth({"run", directory.write("scene.json", scene.dump()), "--json", "-"});
     if (outcome.status == 2) GTEST_SKIP() << outcome.err;  // Bullet was found in one precision only
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(Json::parse(outcome.out).at("precision"), precision);
@@ -179,7 +179,7 @@ TEST(Run, FramesArePicturesEvenlySpaced) {
 TEST(Run, WithoutJsonPrintsASummaryAndWithAFilePrintsBoth) {
   const TemporaryDirectory directory;
   const std::string file = directory.write("scene.json", smallScene().dump());
-  const Outcome outcome = wetcloth({"run", file, "--json", directory.path("result.json")});
+  const Outcome outcome = runWetcloth({"run", file, "--json", directory.path("result.json")});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_NE(outcome.out.find("state hash"), std::string::npos);
   EXPECT_TRUE(readJson(directory.path("result.json")).contains("state_hash"));
@@ -192,7 +192,7 @@ TEST(Run, ANonFiniteStateIsARunThatFailed) {
                                            {"integration", "explicit_euler"}};  // and this for float64
   const TemporaryDirectory directory;
   const std::string file = directory.write("scene.json", scene.dump());
-  const Outcome outcome = wetcloth({"run", file, "--precision", ownPrecision()});
+  const Outcome outcome = runWetcloth({"run", file, "--precision", ownPrecision()});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.err.find(file + ": the state became non-finite in step "), std::string::npos) << outcome.err;
 }
@@ -204,7 +204,7 @@ TEST(Validate, SaysOkForEachExampleScene) {
     arguments.push_back(file);
     expected += file + ": ok\n";
   }
-  const Outcome outcome = wetcloth(arguments);
+  const Outcome outcome = runWetcloth(arguments);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, expected);
 }
