@@ -49,14 +49,22 @@ class BenchCloth {
   btSoftBody& body() { return *m_body; }
   wetcloth::WetCloth& wet() {
     if (!m_wetWorld) {
-      m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_world);
+      m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_world, wetcloth::Hook::manual);
       m_wetWorld->add(*m_body);
+      m_world.setInternalTickCallback(onPreTick, this, true);
     }
     return *m_wetWorld->cloths().front();
   }
+  /// Time spent in our part of the last step [s].
+  double ourSeconds() const { return m_ourSeconds; }
   void step() { m_world.stepSimulation(btScalar(1) / 60, 0); }
 
  private:
+  static void onPreTick(btDynamicsWorld* world, btScalar dt) {
+    BenchCloth& cloth = *static_cast<BenchCloth*>(world->getWorldUserInfo());
+    cloth.m_ourSeconds = secondsOf([&] { cloth.m_wetWorld->preTick(dt); });
+  }
+
   btSoftBodyRigidBodyCollisionConfiguration m_configuration;
   btCollisionDispatcher m_dispatcher{&m_configuration};
   btDbvtBroadphase m_broadphase;
@@ -64,6 +72,7 @@ class BenchCloth {
   btSoftRigidDynamicsWorld m_world{&m_dispatcher, &m_broadphase, &m_solver, &m_configuration};
   std::unique_ptr<btSoftBody> m_body;
   std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;
+  double m_ourSeconds = 0;
 };
 
 }  // namespace wetcloth_bench
