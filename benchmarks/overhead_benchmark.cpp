@@ -68,6 +68,14 @@ void paperSet(benchmark::State& state) {
   compare(state, tested, plain);
 }
 
+void paperSetOnBulletsPatch(benchmark::State& state) {
+  BenchCloth tested(side(state), BenchCloth::Mesh::bullets);
+  BenchCloth plain(side(state), BenchCloth::Mesh::bullets);
+  tested.wet().add<wetcloth::Absorption>();
+  tested.wet().add<wetcloth::Wind>({btVector3(2, 0, 1)});
+  compare(state, tested, plain);
+}
+
 void saturated(benchmark::State& state) {
   BenchCloth tested(side(state));
   BenchCloth plain(side(state));
@@ -95,6 +103,7 @@ BENCHMARK(noEffects)->Apply(sizes);
 BENCHMARK(absorption)->Apply(sizes);
 BENCHMARK(wind)->Apply(sizes);
 BENCHMARK(paperSet)->Apply(sizes);
+BENCHMARK(paperSetOnBulletsPatch)->Apply(smallSizes);
 BENCHMARK(saturated)->Apply(sizes);
 BENCHMARK(hookeSprings)->Apply(smallSizes);
 
