@@ -45,6 +45,6 @@ struct FallResult {
 
 /// Lets a level cloth of 32 x 32 nodes fall, until its centre of mass has fallen `height`.
 /// Throws RunError when it never does.
-FallResult fall(const FallMode& mode, const FallMode::Case& fallCase, double height, WorldKind world);
+FallResult fall(const FallMode& mode, const FallMode::Case& fallCase, double height, WorldKind kind);
 
 }  // namespace runner
