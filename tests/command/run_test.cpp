@@ -137,12 +137,12 @@ TEST(Run, QualityScalesSubstepsAndIterations) {
 }
 
 TEST(Run, ASceneDecidesItsPrecision) {
+  if (!std::ifstream(WETCLOTH_COMMAND "-float64")) GTEST_SKIP() << "Bullet was found in one precision only";
   for (const char* precision : {"float32", "float64"}) {
     Json scene = smallScene();
     scene["precision"] = precision;
     const TemporaryDirectory directory;
     const Outcome outcome = runWetcloth({"run", directory.write("scene.json", scene.dump()), "--json", "-"});
-    if (outcome.status == 2) GTEST_SKIP() << outcome.err;  // Bullet was found in one precision only
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(Json::parse(outcome.out).at("precision"), precision);
   }
