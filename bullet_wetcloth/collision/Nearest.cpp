@@ -1,0 +1,77 @@
+#include "bullet_wetcloth/collision/Nearest.h"
+
+#include <algorithm>
+
+namespace wetcloth::collision {
+namespace {
+
+/// Parameter in [0, 1] of the point on the segment a-b that is nearest to `point`.
+double onSegment(const Vector& a, const Vector& b, const Vector& point) {
+  const Vector along = b - a;
+  const double square = along.squaredNorm();
+  return square > 0 ? std::clamp((point - a).dot(along) / square, 0.0, 1.0) : 0;
+}
+
+Vector between(const Vector& a, const Vector& b, double t) { return a + t * (b - a); }
+
+/// The nearest of some candidates: which of them is right depends on signs that rounding can turn, so all are tried.
+struct Best {
+  double square = INFINITY;
+  std::array<double, 2> where = {0, 0};
+
+  void offer(const Vector& difference, double first, double second) {
+    const double candidate = difference.squaredNorm();
+    if (!(candidate < square)) return;  // also not when it is not a number
+    square = candidate;
+    where = {first, second};
+  }
+};
+
+}  // namespace
+
+template <>
+std::array<double, 2> nearest(const Relative<Pair::vertexFace>& at) {
+  const Vector(&v)[3] = at.vectors;  // the corners, seen from the point
+  const Vector origin = Vector::Zero();
+  Best best;
+  const double t = onSegment(v[0], v[1], origin);
+  best.offer(between(v[0], v[1], t), t, 0);
+  const double s = onSegment(v[0], v[2], origin);
+  best.offer(between(v[0], v[2], s), 0, s);
+  const double r = onSegment(v[1], v[2], origin);
+  best.offer(between(v[1], v[2], r), 1 - r, r);
+
+  const Vector normal = (v[1] - v[0]).cross(v[2] - v[0]);
+  const double area = normal.squaredNorm();
+  const double second = v[2].cross(v[0]).dot(normal) / area;
+  const double third = v[0].cross(v[1]).dot(normal) / area;
+  if (second >= 0 && third >= 0 && second + third <= 1)
+    best.offer(v[0] + second * (v[1] - v[0]) + third * (v[2] - v[0]), second, third);
+  return best.where;
+}
+
+template <>
+std::array<double, 2> nearest(const Relative<Pair::edgeEdge>& at) {
+  const Vector(&v)[5] = at.vectors;
+  // Seen from p0: p1, p2 and p3.
+  const Vector p0 = Vector::Zero();
+  const Vector& p1 = v[0];
+  const Vector& p2 = v[1];
+  const Vector& p3 = v[2];
+  Best best;
+  const auto offerFirst = [&](double first) {
+    const double second = onSegment(p2, p3, first * p1);
+    best.offer(between(p2, p3, second) - first * p1, first, second);
+  };
+  offerFirst(0);
+  offerFirst(1);
+  offerFirst(onSegment(p0, p1, p2));
+  offerFirst(onSegment(p0, p1, p3));
+  const Vector other = p3 - p2;
+  const Vector normal = p1.cross(other);
+  const double crossing = p2.cross(other).dot(normal) / normal.squaredNorm();
+  if (crossing >= 0 && crossing <= 1) offerFirst(crossing);
+  return best.where;
+}
+
+}  // namespace wetcloth::collision
