@@ -1,5 +1,8 @@
 #include "CommandLine.h"
 
+#include "CcdCommand.h"
+#include "CcdMethod.h"
+#include "CostCommand.h"
 #include "Errors.h"
 #include "FallCommand.h"
 #include "NearestWord.h"
@@ -26,7 +29,9 @@ const char* const examples = R"(Examples:
   wetcloth run hanging_towel.json                       run a scene and say what came of it
   wetcloth run flag_wind_100.json --frames pictures     and paint it: pictures/frame_0000.svg, ...
   wetcloth run curtain.json --quality accurate --json result.json
+  wetcloth cost flag_wind_100.json                      what each effect of a scene takes, beside Bullet's step
   wetcloth validate *.json                              check scenes without running them
+  wetcloth ccd queries.csv.gz --method exact            collision checks against exact answers
 
 Exit status: 0 done; 1 the run failed; 2 bad usage or bad input, with one line on standard error.)";
 
@@ -89,10 +94,51 @@ void addFall(CLI::App& app, FallOptions& options, char** arguments) {
   fall->callback([&options, arguments] { compareFalls(options, arguments); });
 }
 
+void addCost(CLI::App& app, CostOptions& options, char** arguments) {
+  CLI::App* const cost = app.add_subcommand("cost", "Measure what each effect takes, beside Bullet's own step");
+  cost->add_option("scene", options.scene, "Scene file; default is a cloth of 64 x 64 nodes with every effect");
+  cost->add_option("--steps", options.steps,
+                   "Bullet's steps to measure in each world; default is what 8 s allow, at most 300");
+  cost->add_option("--precision", options.precision, "Instead of the scene's own")
+      ->check(oneOf("--precision", namesOf(precisionNames())));
+  cost->add_option("--json", options.json, "File for the results as JSON; - is standard output, with nothing else");
+  cost->callback([&options, arguments] {
+    if (options.steps && (*options.steps < 1 || *options.steps > 100000)) {
+      throw InputError("wetcloth: --steps = " + std::to_string(*options.steps) + ": must be 1 to 100000");
+    }
+    measureCost(options, arguments);
+  });
+}
+
 void addValidate(CLI::App& app, std::vector<std::string>& files) {
   CLI::App* const validate = app.add_subcommand("validate", "Check scenes without running them");
   validate->add_option("scenes", files, "Scene files")->required();
   validate->callback([&files] { validateScenes(files); });
+}
+
+void addCcd(CLI::App& app, CcdOptions& options, char** arguments) {
+  CLI::App* const ccd = app.add_subcommand("ccd", "Count and time what a collision check gets wrong");
+  std::vector<std::string> methods;
+  std::string guarantees;
+  for (const CcdMethodInfo& method : ccdMethods()) {
+    methods.push_back(method.name);
+    guarantees += (guarantees.empty() ? "" : ". ") + method.name + ": " + method.guarantee;
+  }
+  ccd->add_option("queries", options.file,
+                  "Queries with their exact answers, as CSV (or that in gzip): id, scene, type (vf or ee), truth (1 or "
+                  "0), x, y, z of the four points at the start and at the end")
+      ->required();
+  ccd->add_option("--method", options.method, guarantees)->check(oneOf("--method", methods))->capture_default_str();
+  ccd->add_option("--tolerance", options.tolerance,
+                  "fast, conservative, exact: width in time below which a contact is not looked for more closely; "
+                  "textbook, newton: how far outside still counts; bullet has none. Default 1e-6");
+  ccd->add_option("--passes", options.passes, "Everything is timed so often, and the median counts")
+      ->capture_default_str();
+  ccd->add_option("--precision", options.precision, "Of Bullet; default is that of this program")
+      ->check(oneOf("--precision", namesOf(precisionNames())));
+  ccd->add_option("--json", options.json, "File for the results as JSON; - is standard output, with nothing else");
+  ccd->add_flag("--disagreements", options.disagreements, "Name the queries that are answered wrongly");
+  ccd->callback([&options, arguments] { checkQueries(options, arguments); });
 }
 
 /// CLI11 calls an unknown subcommand an extra argument.
@@ -117,10 +163,14 @@ int runCommandLine(int count, char** arguments) {
   app.require_subcommand(1);
   RunOptions run;
   FallOptions fall;
+  CostOptions cost;
+  CcdOptions ccd;
   std::vector<std::string> files;
   addRun(app, run, arguments);
   addFall(app, fall, arguments);
+  addCost(app, cost, arguments);
   addValidate(app, files);
+  addCcd(app, ccd, arguments);
   try {
     requireKnownCommand(app, count, arguments);
     app.parse(count, arguments);

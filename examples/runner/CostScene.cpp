@@ -1,0 +1,38 @@
+#include "CostScene.h"
+
+#include "EffectReader.h"
+#include "SceneKeys.h"
+
+namespace runner {
+namespace {
+
+/// From the table of keys, so that an effect that is new there is measured here.
+Json everyEffect() {
+  Json effects = Json::object();
+  for (const std::string& key : keys::effects.keys) effects[key] = Json::object();
+  effects["wind"]["velocity_m_s"] = {2, 0, 1};  // the one parameter without a default
+  return effects;
+}
+
+}  // namespace
+
+Scene costScene() {
+  Scene scene;
+  scene.file = "wetcloth cost";
+  scene.name = "built-in";
+  scene.precision = ownPrecision;
+  ClothScene cloth;
+  wetcloth::ClothPatch patch;
+  patch.columns = patch.rows = 64;
+  patch.edgeV = btVector3(0, 1, 0);
+  patch.pinnedCorners = {wetcloth::ClothPatch::Corner::topLeft, wetcloth::ClothPatch::Corner::topRight};
+  cloth.fabric = wetcloth::Fabric::cotton();
+  patch.arealDensity = cloth.fabric.arealDensity;
+  const Json effects = everyEffect();
+  readEffects(JsonCursor(effects, scene.file, "/cloths/0/effects"), patch.nodeCount(), cloth);
+  cloth.shape = patch;
+  scene.cloths.push_back(cloth);
+  return scene;
+}
+
+}  // namespace runner

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "Scene.h"
+
+namespace runner {
+
+/// What `wetcloth cost` measures when it is given no scene: a cloth of 64 x 64 nodes that hangs from two corners,
+/// with every effect that a scene can have, as the scene reader makes it when no parameter is named.
+Scene costScene();
+
+}  // namespace runner

@@ -1,0 +1,188 @@
+#include "Command.h"
+
+#include "examples/runner/SceneKeys.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+// What a machine takes is never asserted here, only what is said about it.
+
+namespace {
+
+using namespace command;
+
+Json costOf(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{"cost", "--json", "-", "--precision", ownPrecision()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const Outcome outcome = runWetcloth(words);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return outcome.status == 0 ? Json::parse(outcome.out) : Json();
+}
+
+Json costOfScene(const Json& scene, const std::string& steps = "4") {
+  const TemporaryDirectory directory;
+  return costOf({directory.write("scene.json", scene.dump()), "--steps", steps});
+}
+
+std::vector<std::string> namesIn(const Json& result) {
+  std::vector<std::string> names;
+  for (const Json& effect : result.at("effects")) names.push_back(effect.at("name"));
+  return names;
+}
+
+void expectNumbers(const Json& object, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys) EXPECT_TRUE(object.at(key).is_number()) << key;
+}
+
+/// The share of a step is the time per node, over Bullet's.
+void expectConsistent(const Json& result) {
+  const double bullet = result.at("baseline_ns_per_node");
+  EXPECT_GT(bullet, 0);
+  for (const Json& effect : result.at("effects")) {
+    expectNumbers(effect, {"ns_per_node", "percent_of_step", "noise_percent", "mean_ns_per_node",
+                           "mean_noise_ns_per_node", "whole_step_percent", "whole_step_noise_percent"});
+    const double time = effect.at("ns_per_node");
+    const double percent = effect.at("percent_of_step");
+    EXPECT_GE(time, 0);
+    EXPECT_GE(effect.at("noise_percent").get<double>(), result.at("noise_percent").get<double>());
+    EXPECT_NEAR(percent, 100 * time / bullet, 1e-9 * (1 + percent));
+    EXPECT_EQ(effect.at("below_noise").get<bool>(), percent <= effect.at("noise_percent").get<double>());
+  }
+}
+
+void expectRefusal(const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
+  const Outcome outcome = runWetcloth(arguments);
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  for (const std::string& word : words) EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+
+TEST(Cost, WithoutASceneEveryEffectThatASceneCanHave) {
+  const Json result = costOf({"--steps", "1"});
+  EXPECT_EQ(result.at("nodes"), 64 * 64);
+  EXPECT_EQ(result.at("world"), "soft_rigid");
+  EXPECT_EQ(result.at("steps"), 1);
+  const std::vector<std::string> names = namesIn(result);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()),
+            std::set<std::string>(runner::keys::effects.keys.begin(), runner::keys::effects.keys.end()));
+  expectConsistent(result);
+}
+
+TEST(Cost, HelpEndsWithStatusZero) {
+  const Outcome outcome = runWetcloth({"cost", "--help"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.out.find("--steps"), std::string::npos);
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST(Cost, SaysAllItsKeys) {
+  const Json result = costOfScene(smallScene());
+  expectNumbers(result, {"nodes", "steps", "dt", "iterations", "worlds", "baseline_ns_per_node", "noise_percent",
+                         "no_effects_ratio", "no_effects_percent", "no_effects_noise_percent",
+                         "all_effects_ns_per_node", "all_effects_percent", "all_effects_whole_step_percent"});
+  EXPECT_EQ(result.at("scene"), "small");
+  EXPECT_EQ(result.at("precision"), ownPrecision());
+  EXPECT_EQ(result.at("nodes"), 20);
+  EXPECT_EQ(result.at("steps"), 4);
+  EXPECT_DOUBLE_EQ(result.at("dt").get<double>(), 0.0166667 / 4);  // Bullet's own step, a substep of the scene
+  EXPECT_EQ(result.at("worlds"), 4 + 2);
+  EXPECT_GE(result.at("no_effects_percent"), 0);
+  EXPECT_EQ(namesIn(result), (std::vector<std::string>{"absorption", "wind"}));
+  expectConsistent(result);
+}
+
+TEST(Cost, ASceneWithoutEffectsHasAnEmptyList) {
+  Json scene = smallScene();
+  scene["cloths"][0].erase("effects");
+  const Json result = costOfScene(scene);
+  EXPECT_EQ(result.at("effects"), Json::array());
+  EXPECT_EQ(result.at("no_effects_same_state"), true);
+  EXPECT_EQ(result.at("worlds"), 4);
+}
+
+TEST(Cost, WithoutEffectsAClothGoesWhereBulletTakesIt) {
+  for (const char* world : {"soft_rigid", "soft_multibody", "deformable"}) {
+    Json scene = smallScene();
+    scene["world"] = world;
+    scene["cloths"][0]["initial_saturation"] = 0.5;
+    scene["cloths"][0]["effects"]["hooke_springs"] = Json::object();
+    EXPECT_EQ(costOfScene(scene, "40").at("no_effects_same_state"), true) << world;
+  }
+}
+
+TEST(Cost, EffectsOfSeveralClothsAreCountedOnceWithAllNodes) {
+  Json scene = smallScene();
+  Json second = scene["cloths"][0];
+  second["patch"]["origin_m"] = {0, 3, 0};
+  second["patch"]["columns"] = 3;
+  second["effects"] = {{"wind", {{"velocity_m_s", {1, 0, 0}}}}, {"hooke_springs", Json::object()}};
+  scene["cloths"].push_back(second);
+  const Json result = costOfScene(scene);
+  EXPECT_EQ(result.at("nodes"), 20 + 12);
+  EXPECT_EQ(namesIn(result), (std::vector<std::string>{"absorption", "wind", "hooke_springs"}));
+  expectConsistent(result);
+}
+
+TEST(Cost, PrintsATableAndWritesAFile) {
+  const TemporaryDirectory directory;
+  const std::string scene = directory.write("scene.json", smallScene().dump());
+  const Outcome outcome = runWetcloth(
+      {"cost", scene, "--steps", "4", "--json", directory.path("cost.json"), "--precision", ownPrecision()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* word : {"small", "plain Bullet", "no effects", "absorption", "wind", "noise"}) {
+    EXPECT_NE(outcome.out.find(word), std::string::npos) << word << " in: " << outcome.out;
+  }
+  EXPECT_EQ(readJson(directory.path("cost.json")).at("effects").size(), 2u);
+}
+
+TEST(Cost, RefusesBadInput) {
+  const TemporaryDirectory directory;
+  const std::string missing = directory.path("missing.json");
+  expectRefusal({"cost", missing}, {missing, "no such file"});
+  const std::string broken = directory.write("broken.json", "{");
+  expectRefusal({"cost", broken}, {broken, "is not JSON"});
+  Json scene = smallScene();
+  scene["cloths"][0]["effects"]["absorbtion"] = Json::object();
+  const std::string typo = directory.write("typo.json", scene.dump());
+  expectRefusal({"cost", typo}, {typo, "/cloths/0/effects/absorbtion", "\"absorption\""});
+  const std::string good = directory.write("good.json", smallScene().dump());
+  expectRefusal({"cost", good, "--steps", "0"}, {"--steps = 0", "1 to 100000"});
+  expectRefusal({"cost", good, "--steps", "many"}, {"--steps"});
+  expectRefusal({"cost", good, "--precision", "float16"}, {"--precision", "float32"});
+  expectRefusal({"cost", good, good}, {"wetcloth: "});
+  expectRefusal({"cost", good, "--json", directory.path("no/cost.json"), "--precision", ownPrecision()}, {"--json"});
+}
+
+TEST(Cost, ANonFiniteStateIsARunThatFailedAndLeavesNoFile) {
+  Json scene = smallScene();
+  scene["gravity_m_s2"] = {0, -3e38, 0};  // too much for float32
+  scene["cloths"][0]["effects"]["wind"] = {{"velocity_m_s", {1e30, 1e30, 1e30}},
+                                           {"integration", "explicit_euler"}};  // and this for float64
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("scene.json", scene.dump());
+  const Outcome outcome =
+      runWetcloth({"cost", file, "--json", directory.path("cost.json"), "--precision", ownPrecision()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find(file + ": the state "), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(directory.path("cost.json")));
+}
+
+TEST(Cost, AWorldThatFailsWithoutAnEffectEndsTheMeasurement) {
+  if (ownPrecision() != "float32") GTEST_SKIP() << "no gravity that a scene may have outgrows float64 in a few steps";
+  Json scene = smallScene();
+  scene.erase("colliders");
+  scene["gravity_m_s2"] = {0, -1e20, 0};  // only the air keeps a speed's square small enough
+  const Json result = costOfScene(scene, "300");
+  EXPECT_LT(result.at("steps"), 300);
+  EXPECT_EQ(result.at("stopped").get<std::string>().find("the state in plain Bullet became non-finite"), 0u);
+  EXPECT_EQ(namesIn(result), (std::vector<std::string>{"absorption", "wind"}));
+  expectConsistent(result);
+}
