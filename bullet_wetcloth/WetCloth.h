@@ -82,6 +82,8 @@ class WetCloth {
 
   // --- for effects ------------------------------------------------------------------------------------------
 
+  WetClothWorld& world() { return m_world; }
+  const WetClothWorld& world() const { return m_world; }
   Water& water() { return m_water; }
   const Water& water() const { return m_water; }
   NodeMasses& masses() { return m_masses; }

@@ -126,8 +126,10 @@ btVector3 WetClothWorld::gravityOf(const btSoftBody& body) const {
   return gravity * body.m_gravityFactor;
 }
 
+const btAlignedObjectArray<btSoftBody*>& WetClothWorld::softBodies() const { return *softBodiesOf(m_world); }
+
 bool WetClothWorld::isInWorld(const btSoftBody& body) const {
-  const btAlignedObjectArray<btSoftBody*>& bodies = *softBodiesOf(m_world);
+  const btAlignedObjectArray<btSoftBody*>& bodies = softBodies();
   for (int i = 0; i < bodies.size(); ++i) {
     if (bodies[i] == &body) return true;
   }

@@ -48,6 +48,8 @@ class WetClothWorld {
   const std::vector<std::unique_ptr<WetCloth>>& cloths() const { return m_cloths; }
 
   btDynamicsWorld& world() { return m_world; }
+  /// All soft bodies of the world, wet or not.
+  const btAlignedObjectArray<btSoftBody*>& softBodies() const;
 
   /// True while Bullet will call us: false after the application has overwritten the pre-tick callback.
   bool isHooked() const;

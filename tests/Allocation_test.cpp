@@ -61,6 +61,7 @@ TEST_P(NoAllocation, InTheStepAfterItsFirstTurns) {
   cloth.add<wetcloth::Absorption>({[](const btVector3& x, const btVector3&) { return x.x() > 0.5 ? 1.0 : 0.5; }});
   cloth.add<wetcloth::Wind>(
       {[](const btVector3&, double time) { return btVector3(0, 0, btScalar(3 + std::sin(time))); }});
+  cloth.add<wetcloth::CollisionAudit>();
   cloth.add<wetcloth::HookeSprings>(springsOf(300, 5));
   const btScalar dt = btScalar(1) / 240;
   wet.preTick(dt);

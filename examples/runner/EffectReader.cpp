@@ -6,6 +6,7 @@ namespace runner {
 namespace {
 
 using wetcloth::Absorption;
+using wetcloth::CollisionAudit;
 using wetcloth::HookeSprings;
 using wetcloth::Wind;
 
@@ -110,6 +111,18 @@ HookeSprings::Parameters readHookeSprings(JsonCursor cursor) {
   return parameters;
 }
 
+CollisionAudit::Parameters readCollisionAudit(JsonCursor cursor) {
+  using wetcloth::collision::Tier;
+  static const std::vector<std::pair<std::string, Tier>> tiers{
+      {"fast", Tier::fast}, {"conservative", Tier::conservative}, {"exact", Tier::exact}};
+  cursor.expectObject(keys::collisionAudit);
+  CollisionAudit::Parameters parameters;
+  if (const auto self = cursor.find("self")) parameters.self = self->boolean();
+  if (const auto others = cursor.find("others")) parameters.others = others->boolean();
+  if (const auto tier = cursor.find("tier")) parameters.tier = tier->choice(tiers);
+  return parameters;
+}
+
 }  // namespace
 
 void readEffects(JsonCursor cursor, int nodes, ClothScene& cloth) {
@@ -117,6 +130,7 @@ void readEffects(JsonCursor cursor, int nodes, ClothScene& cloth) {
   if (const auto found = cursor.find("absorption")) cloth.absorption = readAbsorption(*found, nodes);
   if (const auto found = cursor.find("wind")) cloth.wind = readWind(*found);
   if (const auto found = cursor.find("hooke_springs")) cloth.hookeSprings = readHookeSprings(*found);
+  if (const auto found = cursor.find("collision_audit")) cloth.collisionAudit = readCollisionAudit(*found);
 }
 
 }  // namespace runner

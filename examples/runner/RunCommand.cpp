@@ -40,6 +40,7 @@ class Run {
   explicit Run(const Scene& scene) : m_scene(scene), m_wet(scene), m_plain(scene, SceneWorld::Kind::plainBullet) {}
 
   const SceneWorld& world() const { return m_wet; }
+  void finish() { m_wet.finish(); }
   RunTimes times() const {
     return {m_steps, 1e3 * m_wetSeconds / std::max(1, m_steps), 1e3 * m_plainSeconds / std::max(1, m_plainSteps)};
   }
@@ -106,6 +107,7 @@ void runScene(const RunOptions& options, char** arguments) {
     }
     frames.write(run.world());
   }
+  run.finish();
   const RunReport report(run.world(), run.times(), options.quality);
   output.write(report.json());
   if (output.ownsStandardOutput()) return;

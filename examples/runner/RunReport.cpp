@@ -7,12 +7,31 @@
 #include <cstdio>
 
 namespace runner {
+namespace {
+
+// They have all looked at the same time.
+std::optional<wetcloth::AuditTotals> sumOf(const std::vector<wetcloth::CollisionAudit*>& audits) {
+  std::optional<wetcloth::AuditTotals> sum;
+  for (const wetcloth::CollisionAudit* audit : audits) {
+    const wetcloth::AuditTotals totals = audit->totals();
+    if (!sum) sum.emplace();
+    sum->vertexFace += totals.vertexFace;
+    sum->edgeEdge += totals.edgeEdge;
+    sum->candidatePairs += totals.candidatePairs;
+    sum->substeps = std::max(sum->substeps, totals.substeps);
+    sum->seconds = std::max(sum->seconds, totals.seconds);
+  }
+  return sum;
+}
+
+}  // namespace
 
 RunReport::RunReport(const SceneWorld& world, const RunTimes& times, const std::string& quality)
     : m_scene(world.scene()),
       m_times(times),
       m_quality(quality),
       m_hash(stateHash(world)),
+      m_audit(sumOf(world.audits())),
       m_saturation(saturationOf(world)) {
   for (const btSoftBody* body : world.bodies()) measureBody(*body);
   for (const wetcloth::WetCloth* cloth : world.cloths()) measureCloth(*cloth);
@@ -73,11 +92,23 @@ nlohmann::ordered_json RunReport::json() const {
                     {"dripped", m_ledger.dripped},
                     {"held", m_ledger.held}};
   json["saturation"] = {{"min", m_saturation.min}, {"mean", m_saturation.mean}, {"max", m_saturation.max}};
+  if (m_audit) {
+    json["audit"] = {
+        {"vertex_face", m_audit->vertexFace}, {"edge_edge", m_audit->edgeEdge}, {"per_second", m_audit->perSecond()}};
+  }
   json["centre_of_mass"] = {m_moment[0] / m_mass, m_moment[1] / m_mass, m_moment[2] / m_mass};
   json["max_speed"] = m_maxSpeed;
   json["max_stretch"] = m_maxStretch;
   json["state_hash"] = m_hash;
   return json;
+}
+
+std::string RunReport::auditLine() const {
+  if (!m_audit) return "";
+  char text[200];
+  std::snprintf(text, sizeof text, "%-15s%lld vertices through faces, %lld edges through edges (%.4g per second)\n",
+                "passages", m_audit->vertexFace, m_audit->edgeEdge, m_audit->perSecond());
+  return text;
 }
 
 std::string RunReport::summary() const {
@@ -103,7 +134,7 @@ std::string RunReport::summary() const {
                 1e3 * m_ledger.evaporated, "saturation", m_saturation.min, m_saturation.max, m_saturation.mean,
                 "centre of mass", m_moment[0] / m_mass, m_moment[1] / m_mass, m_moment[2] / m_mass, "largest",
                 m_maxSpeed, m_maxStretch, "state hash", m_hash.c_str());
-  return text;
+  return text + auditLine();
 }
 
 }  // namespace runner

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ class RunReport {
  private:
   void measureBody(const btSoftBody& body);
   void measureCloth(const wetcloth::WetCloth& cloth);
+  std::string auditLine() const;
 
   const Scene& m_scene;
   RunTimes m_times;
@@ -37,6 +39,7 @@ class RunReport {
   int m_links = 0;
   std::vector<std::string> m_effects;
   wetcloth::Ledger m_ledger;
+  std::optional<wetcloth::AuditTotals> m_audit;  // of all cloths that have one
   Saturation m_saturation;
   double m_moment[3] = {0, 0, 0};  // mass x position [kg m]
   double m_mass = 0;

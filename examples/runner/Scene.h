@@ -48,19 +48,31 @@ struct DeformableSprings {
   double damping = 0.01;        ///< [N s/m]
 };
 
+/// An edge of a patch, pinned, that turns about the line through its middle and that of the opposite edge.
+struct TwistScene {
+  wetcloth::ClothPatch::Edge edge = wetcloth::ClothPatch::Edge::top;
+  double turnsPerSecond = 1;
+  double turns = 1;  ///< in all
+};
+
 struct ClothScene {
   std::string name;
   std::variant<wetcloth::ClothPatch, TriangleMesh> shape;
   std::vector<int> pinnedNodes;  ///< of a mesh; a patch knows its own
   wetcloth::Fabric fabric;
   double initialSaturation = 0;
-  double friction = 0.5;  ///< btSoftBody::Config::kDF, [0, 1]
-  double damping = 0;     ///< btSoftBody::Config::kDP, [0, 1]
-  double margin = 0.02;   ///< of collision [m]
+  double friction = 0.5;          ///< btSoftBody::Config::kDF, [0, 1]
+  double damping = 0;             ///< btSoftBody::Config::kDP, [0, 1]
+  double margin = 0.02;           ///< of collision [m]
+  std::optional<int> collisions;  ///< btSoftBody::fCollision; none: the world's usual ones
+  bool selfCollision = false;     ///< btSoftBody::setSelfCollision()
+  int clusters = 0;               ///< btSoftBody::generateClusters(); 0: none
+  std::optional<TwistScene> twist;
   DeformableSprings springs;
   std::optional<wetcloth::Absorption::Parameters> absorption;
   std::optional<wetcloth::Wind::Parameters> wind;
   std::optional<wetcloth::HookeSprings::Parameters> hookeSprings;
+  std::optional<wetcloth::CollisionAudit::Parameters> collisionAudit;
 };
 
 struct Plane {

@@ -18,10 +18,10 @@ inline const KeyTable scene{"scene",
                             {"$schema", "name", "description", "world", "precision", "gravity_m_s2", "step_s",
                              "substeps", "iterations", "duration_s", "implicit", "cloths", "colliders", "camera"}};
 
-inline const KeyTable cloth{
-    "cloth",
-    {"name", "patch", "obj", "fabric", "pins", "initial_saturation", "friction", "damping", "margin_m",
-     "spring_stiffness_n_m", "bending_stiffness_n_m", "spring_damping_n_s_m", "effects"}};
+inline const KeyTable cloth{"cloth",
+                            {"name", "patch", "obj", "fabric", "pins", "initial_saturation", "friction", "damping",
+                             "margin_m", "collisions", "self_collision", "clusters", "twist", "spring_stiffness_n_m",
+                             "bending_stiffness_n_m", "spring_damping_n_s_m", "effects"}};
 
 inline const KeyTable patch{"patch",
                             {"columns", "rows", "origin_m", "edge_u_m", "edge_v_m", "mechanical_stiffness",
@@ -33,7 +33,9 @@ inline const KeyTable fabric{
 
 inline const KeyTable pins{"pins", {"corners", "edges", "nodes"}};
 
-inline const KeyTable effects{"effects", {"absorption", "wind", "hooke_springs"}};
+inline const KeyTable twist{"twist", {"edge", "turns_per_s", "turns"}};
+
+inline const KeyTable effects{"effects", {"absorption", "wind", "hooke_springs", "collision_audit"}};
 
 inline const KeyTable absorption{
     "absorption", {"mode", "exposure", "law", "water_velocity_m_s", "conserves_momentum", "ramp_duration_s"}};
@@ -48,6 +50,8 @@ inline const KeyTable gust{"gust", {"mean_m_s", "amplitude_m_s", "period_s"}};
 
 inline const KeyTable hookeSprings{"hookeSprings", {"stiffness_n_m", "bending_stiffness_n_m", "iterations"}};
 
+inline const KeyTable collisionAudit{"collisionAudit", {"self", "others", "tier"}};
+
 inline const KeyTable collider{"collider", {"plane", "box", "sphere"}};
 
 inline const KeyTable plane{"plane", {"normal", "offset_m"}};
@@ -58,9 +62,9 @@ inline const KeyTable sphere{"sphere", {"centre_m", "radius_m"}};
 
 inline const KeyTable camera{"camera", {"direction", "field_of_view_deg"}};
 
-inline const std::vector<const KeyTable*> all{&scene,      &cloth,         &patch,  &fabric, &pins,         &effects,
-                                              &absorption, &exposureBelow, &wind,   &gust,   &hookeSprings, &collider,
-                                              &plane,      &box,           &sphere, &camera};
+inline const std::vector<const KeyTable*> all{&scene,          &cloth,         &patch, &fabric, &pins,         &effects,
+                                              &absorption,     &exposureBelow, &wind,  &gust,   &hookeSprings, &twist,
+                                              &collisionAudit, &collider,      &plane, &box,    &sphere,       &camera};
 
 }  // namespace keys
 }  // namespace runner

@@ -99,20 +99,24 @@ std::vector<int> readNodes(const JsonCursor& cursor, int nodes) {
   return indices;
 }
 
+const std::vector<std::pair<std::string, ClothPatch::Edge>>& edgeNames() {
+  using Edge = ClothPatch::Edge;
+  static const std::vector<std::pair<std::string, Edge>> names{
+      {"left", Edge::left}, {"right", Edge::right}, {"bottom", Edge::bottom}, {"top", Edge::top}};
+  return names;
+}
+
 void readPatchPins(const JsonCursor& cursor, ClothPatch& patch) {
   using Corner = ClothPatch::Corner;
-  using Edge = ClothPatch::Edge;
   static const std::vector<std::pair<std::string, Corner>> corners{{"bottom_left", Corner::bottomLeft},
                                                                    {"bottom_right", Corner::bottomRight},
                                                                    {"top_left", Corner::topLeft},
                                                                    {"top_right", Corner::topRight}};
-  static const std::vector<std::pair<std::string, Edge>> edges{
-      {"left", Edge::left}, {"right", Edge::right}, {"bottom", Edge::bottom}, {"top", Edge::top}};
   if (const auto list = cursor.find("corners")) {
     for (const JsonCursor& corner : list->elements()) patch.pinnedCorners.push_back(corner.choice(corners));
   }
   if (const auto list = cursor.find("edges")) {
-    for (const JsonCursor& edge : list->elements()) patch.pinnedEdges.push_back(edge.choice(edges));
+    for (const JsonCursor& edge : list->elements()) patch.pinnedEdges.push_back(edge.choice(edgeNames()));
   }
   if (const auto list = cursor.find("nodes")) patch.pinnedNodes = readNodes(*list, patch.nodeCount());
 }
@@ -156,6 +160,38 @@ void readDamping(const JsonCursor& cursor, WorldKind world, ClothScene& cloth) {
   cloth.damping = found->number(Range::fraction());
 }
 
+/// Bullet's own names, as they stand in btSoftBody::fCollision.
+int readCollisionFlags(const JsonCursor& cursor) {
+  using Flag = btSoftBody::fCollision;
+  static const std::vector<std::pair<std::string, int>> names{
+      {"SDF_RS", Flag::SDF_RS},   {"CL_RS", Flag::CL_RS},    {"SDF_RD", Flag::SDF_RD}, {"SDF_RDF", Flag::SDF_RDF},
+      {"SDF_RDN", Flag::SDF_RDN}, {"VF_SS", Flag::VF_SS},    {"CL_SS", Flag::CL_SS},   {"CL_SELF", Flag::CL_SELF},
+      {"VF_DD", Flag::VF_DD},     {"SDF_MDF", Flag::SDF_MDF}};
+  int flags = 0;
+  for (const JsonCursor& flag : cursor.elements()) flags |= flag.choice(names);
+  return flags;
+}
+
+void readCollisions(const JsonCursor& cursor, ClothScene& cloth) {
+  if (const auto flags = cursor.find("collisions")) cloth.collisions = readCollisionFlags(*flags);
+  if (const auto self = cursor.find("self_collision")) cloth.selfCollision = self->boolean();
+  if (const auto clusters = cursor.find("clusters")) cloth.clusters = clusters->integer(0, nodeCountOf(cloth));
+}
+
+TwistScene readTwist(JsonCursor cursor, const ClothScene& cloth) {
+  cursor.expectObject(keys::twist);
+  const auto* patch = std::get_if<ClothPatch>(&cloth.shape);
+  if (!patch) cursor.complain("an OBJ has no edges to turn, a patch does");
+  TwistScene twist;
+  twist.edge = cursor.at("edge").choice(edgeNames());
+  if (std::count(patch->pinnedEdges.begin(), patch->pinnedEdges.end(), twist.edge) == 0) {
+    cursor.at("edge").complain("must be one of the pinned edges, /pins/edges");
+  }
+  readNumber(cursor, "turns_per_s", Range::finite(), twist.turnsPerSecond);
+  readNumber(cursor, "turns", Range::notNegative(), twist.turns);
+  return twist;
+}
+
 ClothScene readCloth(JsonCursor cursor, WorldKind world) {
   cursor.expectObject(keys::cloth);
   ClothScene cloth;
@@ -172,6 +208,8 @@ ClothScene readCloth(JsonCursor cursor, WorldKind world) {
   readNumber(cursor, "friction", Range::fraction(), cloth.friction);
   readDamping(cursor, world, cloth);
   readNumber(cursor, "margin_m", Range::positive(), cloth.margin);
+  readCollisions(cursor, cloth);
+  if (const auto twist = cursor.find("twist")) cloth.twist = readTwist(*twist, cloth);
   readSprings(cursor, world, cloth.springs);
   if (const auto effects = cursor.find("effects")) readEffects(*effects, nodeCountOf(cloth), cloth);
   return cloth;

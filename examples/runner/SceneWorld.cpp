@@ -61,8 +61,13 @@ void SceneWorld::addCloth(const ClothScene& cloth) {
   body->m_cfg.kDF = btScalar(cloth.friction);
   body->m_cfg.kDP = btScalar(cloth.damping);
   body->getCollisionShape()->setMargin(btScalar(cloth.margin));
+  if (cloth.clusters > 0) body->generateClusters(cloth.clusters);
+  body->setSelfCollision(cloth.selfCollision);
   const bool bulletPulls = !cloth.hookeSprings;
-  m_bodies.push_back(&m_world.add(std::move(body), bulletPulls ? &cloth.springs : nullptr));
+  btSoftBody& added = m_world.add(std::move(body), bulletPulls ? &cloth.springs : nullptr);
+  if (cloth.collisions) added.m_cfg.collisions = *cloth.collisions;
+  if (cloth.twist) m_twists.emplace_back(added, std::get<wetcloth::ClothPatch>(cloth.shape), *cloth.twist);
+  m_bodies.push_back(&added);
 }
 
 void SceneWorld::addEffects(std::size_t index, wetcloth::WetCloth& wet) {
@@ -76,6 +81,9 @@ void SceneWorld::addEffects(std::size_t index, wetcloth::WetCloth& wet) {
   });
   atPointer(m_scene, pointer + "hooke_springs", [&] {
     if (cloth.hookeSprings) wet.add<wetcloth::HookeSprings>(*cloth.hookeSprings);
+  });
+  atPointer(m_scene, pointer + "collision_audit", [&] {
+    if (cloth.collisionAudit) m_audits.push_back(&wet.add<wetcloth::CollisionAudit>(*cloth.collisionAudit));
   });
 }
 
@@ -98,7 +106,15 @@ void SceneWorld::addCollider(const Collider& collider) {
 
 void SceneWorld::step() {
   const btScalar dt = btScalar(m_scene.step / m_scene.substeps);
-  for (int i = 0; i < m_scene.substeps; ++i) m_world.substep(dt);
+  for (int i = 0; i < m_scene.substeps; ++i) {
+    ++m_substeps;
+    for (Twist& twist : m_twists) twist.moveTo(m_substeps * m_scene.step / m_scene.substeps);
+    m_world.substep(dt);
+  }
+}
+
+void SceneWorld::finish() {
+  for (wetcloth::CollisionAudit* audit : m_audits) audit->look();
 }
 
 bool SceneWorld::isFinite() const {

@@ -2,6 +2,7 @@
 
 #include "BulletWorld.h"
 #include "Scene.h"
+#include "Twist.h"
 
 #include <memory>
 #include <vector>
@@ -19,11 +20,14 @@ class SceneWorld {
 
   /// One step of the scene, all its substeps.
   void step();
+  /// After the last step: collision audits look at its last substep.
+  void finish();
 
   const Scene& scene() const { return m_scene; }
   const std::vector<btSoftBody*>& bodies() const { return m_bodies; }
   /// The wet cloths, in the order of the scene; none in plain Bullet.
   const std::vector<wetcloth::WetCloth*>& cloths() const { return m_cloths; }
+  const std::vector<wetcloth::CollisionAudit*>& audits() const { return m_audits; }
   /// Whether all positions and velocities are finite.
   bool isFinite() const;
 
@@ -37,6 +41,9 @@ class SceneWorld {
   std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;  // after the world: it detaches before the world goes
   std::vector<btSoftBody*> m_bodies;
   std::vector<wetcloth::WetCloth*> m_cloths;
+  std::vector<wetcloth::CollisionAudit*> m_audits;
+  std::vector<Twist> m_twists;
+  int m_substeps = 0;
 };
 
 }  // namespace runner

@@ -1,0 +1,212 @@
+#include "bullet_wetcloth/effects/CollisionAudit.h"
+
+#include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/WetClothWorld.h"
+#include "bullet_wetcloth/effects/PassageFinder.h"
+#include "bullet_wetcloth/effects/SweptFaces.h"
+
+#include <LinearMath/btIDebugDraw.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+using collision::Pair;
+
+/// Another soft body of the world.
+struct CollisionAudit::Other {
+  std::unique_ptr<SweptFaces> faces;
+  bool isInWorld = true;
+  bool isNew = true;  // where it was before this substep is not known
+};
+
+namespace {
+
+// The substep as the world sees it [s].
+double worldStepOf(const WetCloth& cloth, const Step& step) {
+  return cloth.isInDeformableWorld() ? step.dt : step.dt / static_cast<double>(cloth.body().m_cfg.timescale);
+}
+
+Passage passageOf(Pair pair, const PassageFinder::Subject& subject, const collision::Contact& contact) {
+  Passage passage;
+  passage.pair = pair;
+  passage.first = subject.first->body();
+  passage.second = subject.second->body();
+  const int firstNodes = pair == Pair::vertexFace ? 1 : 2;
+  for (int i = 0; i < 4; ++i) {
+    passage.nodes[i] = subject.nodes[i];
+    const SweptFaces::Position& at = (i < firstNodes ? subject.first : subject.second)->position(subject.nodes[i]);
+    for (int k = 0; k < 3; ++k) passage.points[i][k] = at.start[k] + btScalar(contact.time) * (at.end[k] - at.start[k]);
+    passage.points[i][3] = 0;
+  }
+  const btVector3(&p)[4] = passage.points;
+  const btScalar a = btScalar(contact.where[0]);
+  const btScalar b = btScalar(contact.where[1]);
+  passage.position = pair == Pair::vertexFace ? p[1] + (p[2] - p[1]) * a + (p[3] - p[1]) * b : p[0] + (p[1] - p[0]) * a;
+  return passage;
+}
+
+}  // namespace
+
+CollisionAudit::CollisionAudit(Parameters parameters)
+    : m_parameters(std::move(parameters)), m_own(std::make_unique<SweptFaces>()) {
+  if (m_parameters.tier == collision::Tier::exact && !collision::ContinuousCheck::hasExact()) {
+    reject("CollisionAudit.tier", "this build has no exact tier; it needs Boost.Multiprecision");
+  }
+  m_passages.reserve(static_cast<std::size_t>(kMostKept));
+  const auto count = [this](Pair pair, const PassageFinder::Subject& subject, const collision::Contact& contact) {
+    ++(pair == Pair::vertexFace ? m_totals.vertexFace : m_totals.edgeEdge);
+    Passage passage = passageOf(pair, subject, contact);
+    passage.time = m_time + contact.time * (m_lookEnd - m_time);
+    if (m_passages.size() < static_cast<std::size_t>(kMostKept)) m_passages.push_back(passage);
+    if (m_parameters.onPassage) m_parameters.onPassage(passage);
+  };
+  m_finder = std::make_unique<PassageFinder>(m_parameters.tier, count);
+}
+
+CollisionAudit::~CollisionAudit() = default;
+
+AuditTotals CollisionAudit::totals() const {
+  AuditTotals totals = m_totals;
+  totals.candidatePairs = m_finder->candidates();
+  return totals;
+}
+
+void CollisionAudit::attach(WetCloth& cloth) {
+  const btSoftBody& body = cloth.body();
+  if (body.m_faces.size() == 0) {
+    rejectValue("CollisionAudit: body.m_faces.size()", 0, "at least 1: a rope has nothing that it looks at");
+  }
+  m_cloth = &cloth;
+  m_own->build(body);
+  reset();
+}
+
+void CollisionAudit::detach(WetCloth&) {
+  m_cloth = nullptr;
+  reset();
+}
+
+void CollisionAudit::reset() {
+  m_isFollowing = false;
+  m_isPending = false;
+}
+
+void CollisionAudit::apply(WetCloth& cloth, const Step& step) {
+  const bool isNextSubstep = m_isFollowing && step.time - m_time < 1.5 * m_dt;
+  if (isNextSubstep) {
+    lookUntil(step.time);
+  } else {
+    restart();
+  }
+  m_time = step.time;
+  m_dt = worldStepOf(cloth, step);
+  m_isPending = true;
+}
+
+void CollisionAudit::look() {
+  if (!m_cloth || !m_isFollowing || !m_own->fits(m_cloth->body())) return;
+  const double end = m_isPending ? m_time + m_dt : m_time;
+  lookUntil(end);
+  m_time = end;
+  m_isPending = false;
+}
+
+void CollisionAudit::restart() {
+  m_passages.clear();
+  m_finder->forget();
+  m_own->restart(m_cloth->body());
+  m_others.clear();
+  followOthers();
+  m_isFollowing = true;
+}
+
+void CollisionAudit::lookUntil(double time) {
+  m_passages.clear();
+  m_lookEnd = time;
+  m_totals.seconds += time - m_time;
+  if (m_isPending) ++m_totals.substeps;
+  const bool ownMoved = m_own->advance(m_cloth->body());
+  const bool othersMoved = followOthers();
+  if (!ownMoved && !othersMoved) return;
+  m_own->refit();
+  if (m_parameters.self) m_finder->lookAt(*m_own);
+  for (const Other& other : m_others) {
+    if (other.isNew) continue;
+    other.faces->refit();
+    m_finder->lookAt(*m_own, *other.faces);
+  }
+  m_finder->finish();
+}
+
+// Returns whether any of them moved.
+bool CollisionAudit::followOthers() {
+  if (!m_parameters.others) return false;
+  for (Other& other : m_others) other.isInWorld = false;
+  bool moved = false;
+  const btAlignedObjectArray<btSoftBody*>& bodies = m_cloth->world().softBodies();
+  for (int i = 0; i < bodies.size(); ++i) {
+    const btSoftBody& body = *bodies[i];
+    if (&body != &m_cloth->body() && body.m_faces.size() > 0 && isOurs(body)) moved |= follow(body);
+  }
+  const auto isGone = [](const Other& other) { return !other.isInWorld; };
+  m_others.erase(std::remove_if(m_others.begin(), m_others.end(), isGone), m_others.end());
+  return moved;
+}
+
+bool CollisionAudit::follow(const btSoftBody& body) {
+  const auto isIt = [&](const Other& other) { return other.faces->body() == &body; };
+  auto found = std::find_if(m_others.begin(), m_others.end(), isIt);
+  if (found == m_others.end()) {
+    m_others.push_back({std::make_unique<SweptFaces>()});
+    found = m_others.end() - 1;
+  }
+  found->isInWorld = true;
+  found->isNew = !found->faces->fits(body);
+  if (!found->isNew) return found->faces->advance(body);
+  found->faces->build(body);
+  return false;
+}
+
+// Of two cloths that look at each other, the one that was added first counts.
+bool CollisionAudit::isOurs(const btSoftBody& other) const {
+  const auto looksAtOthers = [](const std::unique_ptr<Effect>& effect) {
+    const auto* audit = dynamic_cast<const CollisionAudit*>(effect.get());
+    return audit && audit->m_parameters.others;
+  };
+  for (const auto& cloth : m_cloth->world().cloths()) {
+    if (cloth.get() == m_cloth) return true;
+    if (&cloth->body() != &other) continue;
+    return std::none_of(cloth->effects().begin(), cloth->effects().end(), looksAtOthers);
+  }
+  return true;
+}
+
+void CollisionAudit::draw(btIDebugDraw& drawer) const {
+  const btVector3 red(1, 0, 0);
+  const btVector3 yellow(1, 1, 0);
+  for (const Passage& passage : m_passages) {
+    const btVector3(&p)[4] = passage.points;
+    const bool isFace = passage.pair == Pair::vertexFace;
+    const btVector3& colour = isFace ? red : yellow;
+    if (!isFace) drawer.drawLine(p[0], p[1], colour);
+    drawer.drawLine(p[2], p[3], colour);
+    if (isFace) {
+      drawer.drawLine(p[1], p[2], colour);
+      drawer.drawLine(p[3], p[1], colour);
+    }
+    const btScalar arm = (p[3] - p[2]).length() / 4;
+    for (int axis = 0; axis < 3; ++axis) {
+      btVector3 along(0, 0, 0);
+      along[axis] = arm;
+      drawer.drawLine(passage.position - along, passage.position + along, colour);
+    }
+  }
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
