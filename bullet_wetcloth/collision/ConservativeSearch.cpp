@@ -20,7 +20,7 @@ double guessRoot(const double (&scaled)[4]) {
     const double next = t - value / slope;
     const double last = t;
     t = next > low && next < high ? next : 0.5 * (low + high);
-    if (std::abs(t - last) < 1e-9) break;
+    if (std::abs(t - last) < 1e-5) break;  // its square is left, where the root is a simple one
   }
   return t;
 }

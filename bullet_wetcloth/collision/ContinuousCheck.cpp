@@ -36,11 +36,9 @@ const Query<double>& widen(const Query<double>& query) { return query; }
 
 template <class Scalar>
 bool isFinite(const Query<Scalar>& query) {
+  using Coordinates = Eigen::Map<const Eigen::Array<Scalar, 12, 1>>;
   // x * 0 is 0 for what is finite and not a number for all else.
-  Scalar sum = 0;
-  for (int i = 0; i < 4; ++i)
-    for (int k = 0; k < 3; ++k) sum += query.start[i][k] * 0 + query.end[i][k] * 0;
-  return sum == 0;
+  return ((Coordinates(query.start[0]) + Coordinates(query.end[0]) * 0) * 0).sum() == 0;
 }
 
 Contact contactAt(double time) {

@@ -27,26 +27,36 @@ struct Best {
   }
 };
 
+/// The squared sine of an angle below which a crossing is not trusted: rounding moves it by 1e-16 over the sine.
+constexpr double kSharp = 1e-8;
+
+bool isSharp(const Vector& normal, const Vector& a, const Vector& b) {
+  return normal.squaredNorm() > kSharp * a.squaredNorm() * b.squaredNorm();
+}
+
 }  // namespace
 
 template <>
 std::array<double, 2> nearest(const Relative<Pair::vertexFace>& at) {
   const Vector(&v)[3] = at.vectors;  // the corners, seen from the point
+  const Vector a = v[1] - v[0];
+  const Vector b = v[2] - v[0];
+  const Vector normal = a.cross(b);
+  const double area = normal.squaredNorm();
+  const double second = v[2].cross(v[0]).dot(normal) / area;
+  const double third = v[0].cross(v[1]).dot(normal) / area;
+  const bool inside = second >= 0 && third >= 0 && second + third <= 1;
+  if (inside && isSharp(normal, a, b)) return {second, third};
+
   const Vector origin = Vector::Zero();
   Best best;
+  if (inside) best.offer(v[0] + second * a + third * b, second, third);
   const double t = onSegment(v[0], v[1], origin);
   best.offer(between(v[0], v[1], t), t, 0);
   const double s = onSegment(v[0], v[2], origin);
   best.offer(between(v[0], v[2], s), 0, s);
   const double r = onSegment(v[1], v[2], origin);
   best.offer(between(v[1], v[2], r), 1 - r, r);
-
-  const Vector normal = (v[1] - v[0]).cross(v[2] - v[0]);
-  const double area = normal.squaredNorm();
-  const double second = v[2].cross(v[0]).dot(normal) / area;
-  const double third = v[0].cross(v[1]).dot(normal) / area;
-  if (second >= 0 && third >= 0 && second + third <= 1)
-    best.offer(v[0] + second * (v[1] - v[0]) + third * (v[2] - v[0]), second, third);
   return best.where;
 }
 
@@ -58,19 +68,24 @@ std::array<double, 2> nearest(const Relative<Pair::edgeEdge>& at) {
   const Vector& p1 = v[0];
   const Vector& p2 = v[1];
   const Vector& p3 = v[2];
+  const Vector other = p3 - p2;
+  const Vector normal = p1.cross(other);
+  const double area = normal.squaredNorm();
+  const double first = p2.cross(other).dot(normal) / area;
+  const double second = p2.cross(p1).dot(normal) / area;
+  const bool inside = first >= 0 && first <= 1 && second >= 0 && second <= 1;
+  if (inside && isSharp(normal, p1, other)) return {first, second};
+
   Best best;
-  const auto offerFirst = [&](double first) {
-    const double second = onSegment(p2, p3, first * p1);
-    best.offer(between(p2, p3, second) - first * p1, first, second);
+  const auto offerFirst = [&](double onFirst) {
+    const double onSecond = onSegment(p2, p3, onFirst * p1);
+    best.offer(between(p2, p3, onSecond) - onFirst * p1, onFirst, onSecond);
   };
   offerFirst(0);
   offerFirst(1);
   offerFirst(onSegment(p0, p1, p2));
   offerFirst(onSegment(p0, p1, p3));
-  const Vector other = p3 - p2;
-  const Vector normal = p1.cross(other);
-  const double crossing = p2.cross(other).dot(normal) / normal.squaredNorm();
-  if (crossing >= 0 && crossing <= 1) offerFirst(crossing);
+  if (first >= 0 && first <= 1) offerFirst(first);
   return best.where;
 }
 
