@@ -11,9 +11,9 @@
 
 namespace wetcloth::collision::exact {
 
-/// Grows without bound; what queries at ordinary scales need stays off the heap.
+/// Grows without bound; 4096 bits stay off the heap, and no query of tests/data/ccd needs more.
 using Integer = boost::multiprecision::number<
-    boost::multiprecision::cpp_int_backend<2048, 0, boost::multiprecision::signed_magnitude,
+    boost::multiprecision::cpp_int_backend<4096, 0, boost::multiprecision::signed_magnitude,
                                            boost::multiprecision::unchecked,
                                            std::allocator<boost::multiprecision::limb_type>>,
     boost::multiprecision::et_off>;

@@ -27,11 +27,10 @@ struct Best {
   }
 };
 
-/// The squared sine of an angle below which a crossing is not trusted: rounding moves it by 1e-16 over the sine.
-constexpr double kSharp = 1e-8;
-
-bool isSharp(const Vector& normal, const Vector& a, const Vector& b) {
-  return normal.squaredNorm() > kSharp * a.squaredNorm() * b.squaredNorm();
+/// Whether a normal is long enough, for figures of this size, that rounding does not turn it: it moves the normal by
+/// about 1e-16 of the squared size.
+bool isSharp(const Vector& normal, double squaredSize) {
+  return normal.squaredNorm() > 1e-8 * squaredSize * squaredSize;
 }
 
 }  // namespace
@@ -46,7 +45,8 @@ std::array<double, 2> nearest(const Relative<Pair::vertexFace>& at) {
   const double second = v[2].cross(v[0]).dot(normal) / area;
   const double third = v[0].cross(v[1]).dot(normal) / area;
   const bool inside = second >= 0 && third >= 0 && second + third <= 1;
-  if (inside && isSharp(normal, a, b)) return {second, third};
+  if (inside && isSharp(normal, std::max({v[0].squaredNorm(), v[1].squaredNorm(), v[2].squaredNorm()})))
+    return {second, third};
 
   const Vector origin = Vector::Zero();
   Best best;
@@ -74,7 +74,8 @@ std::array<double, 2> nearest(const Relative<Pair::edgeEdge>& at) {
   const double first = p2.cross(other).dot(normal) / area;
   const double second = p2.cross(p1).dot(normal) / area;
   const bool inside = first >= 0 && first <= 1 && second >= 0 && second <= 1;
-  if (inside && isSharp(normal, p1, other)) return {first, second};
+  if (inside && isSharp(normal, std::max({p1.squaredNorm(), p2.squaredNorm(), p3.squaredNorm()})))
+    return {first, second};
 
   Best best;
   const auto offerFirst = [&](double onFirst) {
