@@ -24,11 +24,12 @@ template <class Value>
 
 Query<double> widen(const Query<float>& query) {
   Query<double> result;
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < 4; ++i) {
     for (int k = 0; k < 3; ++k) {
       result.start[i][k] = double(query.start[i][k]);
       result.end[i][k] = double(query.end[i][k]);
     }
+  }
   return result;
 }
 
@@ -56,9 +57,11 @@ struct Scaled {
   double minSeparation;
 
   void by(int exponent) {
-    for (Relative<pair>* at : {&start, &end})
-      for (Vector& vector : at->vectors)
-        for (double& component : vector) component = std::ldexp(component, exponent);
+    // Not by a factor: that of the smallest denormals is too large for a double.
+    const auto scale = [exponent](double component) { return std::ldexp(component, exponent); };
+    for (Relative<pair>* at : {&start, &end}) {
+      for (Vector& vector : at->vectors) vector = vector.unaryExpr(scale);
+    }
     minSeparation = std::ldexp(minSeparation, exponent);
   }
 };
@@ -180,10 +183,11 @@ void ContinuousCheck::operator()(Pair pair, const Query<Scalar>* queries, std::s
     for (std::size_t i = 0; i < count; ++i) contacts[i] = (*this)(pair, queries[i]);
     return;
   }
-  if (pair == Pair::vertexFace)
+  if (pair == Pair::vertexFace) {
     answerBatch<Pair::vertexFace>(queries, count, contacts, m_tier, m_settings);
-  else
+  } else {
     answerBatch<Pair::edgeEdge>(queries, count, contacts, m_tier, m_settings);
+  }
 }
 
 template Contact ContinuousCheck::operator()(Pair, const Query<float>&) const noexcept;

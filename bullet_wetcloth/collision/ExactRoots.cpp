@@ -80,9 +80,11 @@ double guessRoot(const Integer (&bernstein)[4], int signBelow) {
   const double c2 = 3 * (b[2] - 2 * b[1] + b[0]);
   const double c3 = b[3] - b[0] + 3 * (b[1] - b[2]);
   double root = 0;
-  for (double step = 0.5; step > 1e-12; step *= 0.5) {
+  double step = 0.5;
+  for (int halving = 0; halving < 39; ++halving) {  // to 2e-12
     const double t = root + step;
     if (((c3 * t + c2) * t + c1) * t + b[0] > 0) root = t;
+    step *= 0.5;
   }
   return root;
 }

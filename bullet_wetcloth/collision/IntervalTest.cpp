@@ -138,10 +138,11 @@ bool IntervalTest<pair>::signedUntil(const double (&c)[4], double fraction) cons
 template <Pair pair>
 double IntervalTest<pair>::normalBound() const {
   const auto edges = [](const Vector* v) {
-    if constexpr (pair == Pair::vertexFace)
+    if constexpr (pair == Pair::vertexFace) {
       return std::make_pair(Vector(v[1] - v[0]), Vector(v[2] - v[0]));
-    else
+    } else {
       return std::make_pair(v[0], Vector(v[2] - v[1]));
+    }
   };
   const auto [a, b] = edges(m_first);
   const auto [c, d] = edges(m_last);

@@ -45,10 +45,11 @@ Relative<pair> relative(const double (&points)[4][3]) {
   const Eigen::Map<const Vector> p1(points[1]);
   const Eigen::Map<const Vector> p2(points[2]);
   const Eigen::Map<const Vector> p3(points[3]);
-  if constexpr (pair == Pair::vertexFace)
+  if constexpr (pair == Pair::vertexFace) {
     return {{p1 - p0, p2 - p0, p3 - p0}};
-  else
+  } else {
     return {{p1 - p0, p2 - p0, p3 - p0, p2 - p1, p3 - p1}};
+  }
 }
 
 /// The largest |component| on each axis, of the vectors at one time and at another.
