@@ -16,6 +16,7 @@ struct Split {
 
   Split(const Two& firstTwo, double third) : xy(firstTwo), z(third) {}
   explicit Split(const double (&p)[3]) : xy(Eigen::Map<const Two>(p)), z(p[2]) {}
+  // A processor that takes denormals for 0 moves no coordinate past another, so the proof stands.
   explicit Split(const float (&p)[3]) : xy(double(p[0]), double(p[1])), z(double(p[2])) {}
   Split min(const Split& other) const { return {xy.min(other.xy), std::min(z, other.z)}; }
   Split max(const Split& other) const { return {xy.max(other.xy), std::max(z, other.z)}; }

@@ -39,8 +39,8 @@ struct Interval {
   Kind kind;
 };
 
-/// Intervals that are still to be looked at, the earliest on top. Each division leaves at most two more, and an
-/// interval is halved at least every second time: 2^-52 is reached before there are more than 2 * 2 * 52.
+/// Intervals that are still to be looked at, the earliest on top. A division leaves at most two more, and an interval
+/// is halved at least every second time: three for each halving, down to 1e-12, is about 120.
 class Pending {
  public:
   Pending() { push({0, 1, Interval::Kind::plain}); }
@@ -51,7 +51,7 @@ class Pending {
   Interval pop() { return m_intervals[--m_count]; }
 
  private:
-  Interval m_intervals[2 * 2 * 52 + 3];
+  Interval m_intervals[160];
   int m_count = 0;
 };
 

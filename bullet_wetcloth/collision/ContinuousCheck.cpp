@@ -6,8 +6,10 @@
 #include "bullet_wetcloth/collision/CubicCull.h"
 #include "bullet_wetcloth/collision/ExactContact.h"
 #include "bullet_wetcloth/collision/Nearest.h"
+#include "bullet_wetcloth/collision/Widen.h"
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -22,24 +24,24 @@ template <class Value>
   throw std::invalid_argument(text.str());
 }
 
-Query<double> widen(const Query<float>& query) {
-  Query<double> result;
-  for (int i = 0; i < 4; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      result.start[i][k] = double(query.start[i][k]);
-      result.end[i][k] = double(query.end[i][k]);
-    }
-  }
-  return result;
-}
-
-const Query<double>& widen(const Query<double>& query) { return query; }
-
 template <class Scalar>
 bool isFinite(const Query<Scalar>& query) {
-  using Coordinates = Eigen::Map<const Eigen::Array<Scalar, 12, 1>>;
-  // x * 0 is 0 for what is finite and not a number for all else.
-  return ((Coordinates(query.start[0]) + Coordinates(query.end[0]) * 0) * 0).sum() == 0;
+  // x * 0 is 0 for what is finite and not a number for all else. Six sums, because one would wait for itself.
+  Scalar sums[2][3] = {};
+  for (int i = 0; i < 4; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      sums[0][k] += query.start[i][k] * 0;
+      sums[1][k] += query.end[i][k] * 0;
+    }
+  }
+  return sums[0][0] + sums[0][1] + sums[0][2] + sums[1][0] + sums[1][1] + sums[1][2] == 0;
+}
+
+/// Whether the processor, as this thread has set it, takes denormal numbers for 0.
+bool flushesDenormals() {
+  const volatile double least = std::numeric_limits<double>::min();
+  const volatile double half = 0.5 * least;
+  return half == 0;
 }
 
 Contact contactAt(double time) {
@@ -76,7 +78,9 @@ class Answer {
   Contact operator()() const {
     Scaled<pair> motion = {relative<pair>(m_query.start), relative<pair>(m_query.end), m_settings.minSeparation};
     const double largest = magnitude<pair>(motion.start.vectors, motion.end.vectors).maxCoeff();
-    if (!std::isfinite(largest)) return ofOverflow();
+    if (!std::isfinite(largest)) return outOfRange();
+    // What flushing took from the differences would be scaled up, beyond what the bounds have room for.
+    if (largest < 0x1p-300 && flushesDenormals()) return outOfRange();
     // Points 0 and 1, and those of the other primitive, are no farther from each other than this: or all one place.
     if (largest <= 0.5 * m_settings.minSeparation || largest == 0) return contactAt(0);
     if (largest < 0x1p-100 || largest > 0x1p100) motion.by(-std::ilogb(largest) - 1);
@@ -101,8 +105,8 @@ class Answer {
     return contact;
   }
 
-  /// Differences beyond the range of double: only exact arithmetic can tell.
-  Contact ofOverflow() const { return m_tier == Tier::exact ? exactly() : contactAt(0); }
+  /// Differences beyond what double can tell: only exact arithmetic can.
+  Contact outOfRange() const { return m_tier == Tier::exact ? exactly() : contactAt(0); }
 
   Contact exactly() const {
 #ifdef WETCLOTH_EXACT_COLLISION

@@ -6,7 +6,8 @@
 
 namespace wetcloth::collision {
 
-/// Three ways to answer a query. None of them ever misses a contact.
+/// Three ways to answer a query. None of them ever misses a contact, as long as arithmetic rounds to nearest (the
+/// default); a thread may flush denormals to zero.
 enum class Tier {
   /// Batches are culled in single precision, several queries at a time, with a proved error bound; what is left goes
   /// to `conservative`. Same guarantee as `conservative`; a single query is answered by that tier.
@@ -23,7 +24,8 @@ struct CheckSettings {
   /// Width of the time interval in which a contact is no longer looked for more closely, a fraction of the motion, in
   /// [1e-12, 1]. Smaller means a later (closer) reported time and fewer false alarms.
   double tolerance = 1e-6;
-  /// Worst-case work of one query: so many time intervals are looked at, then the answer is "contact". >= 1.
+  /// Worst-case work of one query: so many time intervals are looked at, then the answer is "contact" (Tier::exact then
+  /// goes on to exact arithmetic, which this does not limit). >= 1.
   int maxIntervals = 256;
   /// Thickness: two that come as near as this meet, in the unit of the points, finite and >= 0. With Tier::exact only
   /// 0.
@@ -32,7 +34,8 @@ struct CheckSettings {
 
 /// Continuous collision of moving points, triangles and edges. Points that are not finite answer "contact" at time 0.
 ///
-/// Allocates nothing, but for Tier::exact on coordinates of such different sizes that its integers outgrow their place.
+/// Allocates nothing, but for Tier::exact on coordinates of such different sizes that its integers outgrow 4096 bits;
+/// if memory runs out there, the program ends.
 class ContinuousCheck {
  public:
   /// Throws std::invalid_argument naming the field and the value when a setting is out of range, and

@@ -1,6 +1,7 @@
 #include "bullet_wetcloth/collision/CoplanarityCubic.h"
 
 #include "bullet_wetcloth/collision/Relative.h"
+#include "bullet_wetcloth/collision/Widen.h"
 
 #include <cmath>
 #include <limits>
@@ -16,12 +17,6 @@ constexpr double kCoefficient = 67;
 
 /// What underflow adds: at most 30 operations wrong by 2^-1022 (a flushed denormal), times two further factors.
 double underflow(double largest) { return 0x1p-1010 * (1 + largest) * (1 + largest); }
-
-template <class Scalar>
-void widen(const Scalar (&from)[4][3], double (&to)[4][3]) {
-  for (int i = 0; i < 4; ++i)
-    for (int k = 0; k < 3; ++k) to[i][k] = double(from[i][k]);
-}
 
 }  // namespace
 
@@ -45,11 +40,9 @@ bool CoplanarityCubic::hasNoRoot() const {
 
 template <class Scalar>
 CoplanarityCubic coplanarityCubic(const Query<Scalar>& query) noexcept {
-  double points[4][3];
-  widen(query.start, points);
-  const auto start = relative<Pair::vertexFace>(points);
-  widen(query.end, points);
-  const auto end = relative<Pair::vertexFace>(points);
+  const Query<double>& wide = widen(query);
+  const auto start = relative<Pair::vertexFace>(wide.start);
+  const auto end = relative<Pair::vertexFace>(wide.end);
   const auto& a = start.vectors;
   const auto& b = end.vectors;
   const Vector mixed = a[1].cross(b[2]) + b[1].cross(a[2]);

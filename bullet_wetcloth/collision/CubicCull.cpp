@@ -3,9 +3,12 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <limits>
 
 namespace wetcloth::collision {
 namespace {
+
+static_assert(std::numeric_limits<float>::is_iec559, "a double out of float's range must become infinite");
 
 constexpr int kLanes = 8;
 /// The same number of several queries.

@@ -9,8 +9,9 @@ namespace wetcloth::collision {
 /// Proves, where it can, that the two of a query stay apart (farther than a minimum separation) during an interval of
 /// time. Every "true" is a proof; see docs/ccd.md for the lemmas that the constants below come from.
 ///
-/// Valid for vectors whose largest component M is in [2^-100, 2^100]: nothing overflows, and what underflows (also
-/// where the processor flushes denormals to zero) stays far below kUnderflow.
+/// Valid for vectors whose largest component M is in [2^-100, 2^100]: nothing overflows, and what underflows stays far
+/// below kUnderflow, also where the processor flushes denormals to zero, as long as the vectors themselves were not
+/// flushed and then scaled up (see ContinuousCheck.cpp).
 template <Pair pair>
 class IntervalTest {
  public:
