@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <utility>
 
 namespace wetcloth {
@@ -40,7 +41,10 @@ Passage passageOf(Pair pair, const PassageFinder::Subject& subject, const collis
   for (int i = 0; i < 4; ++i) {
     passage.nodes[i] = subject.nodes[i];
     const SweptFaces::Position& at = (i < firstNodes ? subject.first : subject.second)->position(subject.nodes[i]);
-    for (int k = 0; k < 3; ++k) passage.points[i][k] = at.start[k] + btScalar(contact.time) * (at.end[k] - at.start[k]);
+    for (int k = 0; k < 3; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      passage.points[i][k] = at.start(axis) + btScalar(contact.time) * (at.end(axis) - at.start(axis));
+    }
     passage.points[i][3] = 0;
   }
   const btVector3(&p)[4] = passage.points;
@@ -56,6 +60,9 @@ CollisionAudit::CollisionAudit(Parameters parameters)
     : m_parameters(std::move(parameters)), m_own(std::make_unique<SweptFaces>()) {
   if (m_parameters.tier == collision::Tier::exact && !collision::ContinuousCheck::hasExact()) {
     reject("CollisionAudit.tier", "this build has no exact tier; it needs Boost.Multiprecision");
+  }
+  if (m_parameters.mostPairsPerFace < 1) {
+    rejectValue("CollisionAudit.mostPairsPerFace", m_parameters.mostPairsPerFace, "at least 1");
   }
   m_passages.reserve(static_cast<std::size_t>(kMostKept));
   const auto count = [this](Pair pair, const PassageFinder::Subject& subject, const collision::Contact& contact) {
@@ -134,13 +141,25 @@ void CollisionAudit::lookUntil(double time) {
   const bool othersMoved = followOthers();
   if (!ownMoved && !othersMoved) return;
   m_own->refit();
+  m_finder->begin(mostCandidates());
   if (m_parameters.self) m_finder->lookAt(*m_own);
   for (const Other& other : m_others) {
     if (other.isNew) continue;
     other.faces->refit();
     m_finder->lookAt(*m_own, *other.faces);
   }
-  m_finder->finish();
+  if (!m_finder->finish()) sayIncomplete();
+}
+
+long long CollisionAudit::mostCandidates() const {
+  return static_cast<long long>(m_parameters.mostPairsPerFace) * m_cloth->body().m_faces.size();
+}
+
+void CollisionAudit::sayIncomplete() {
+  if (m_totals.incompleteSubsteps++ > 0) return;
+  m_cloth->log("CollisionAudit: at " + std::to_string(m_lookEnd) + " s there were more than " +
+               std::to_string(mostCandidates()) + " pairs to look at in a substep, and the rest was left out; " +
+               "totals().incompleteSubsteps counts such substeps, Parameters::mostPairsPerFace sets the limit");
 }
 
 // Returns whether any of them moved.

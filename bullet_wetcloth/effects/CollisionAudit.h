@@ -33,9 +33,10 @@ struct Passage {
 struct AuditTotals {
   long long vertexFace = 0;
   long long edgeEdge = 0;
-  long long candidatePairs = 0;  ///< of which the swept boxes overlapped
-  long long substeps = 0;        ///< looked at
-  double seconds = 0;            ///< simulated time looked at [s]
+  long long candidatePairs = 0;      ///< of which the swept boxes overlapped
+  long long substeps = 0;            ///< looked at
+  long long incompleteSubsteps = 0;  ///< of which some pairs were left out: see Parameters::mostPairsPerFace
+  double seconds = 0;                ///< simulated time looked at [s]
 
   long long passages() const { return vertexFace + edgeEdge; }
   /// Passages per second of simulated time.
@@ -61,6 +62,10 @@ class CollisionAudit : public Effect {
     bool others = true;  ///< pairs of this cloth and any other soft body of the world that has faces
     /// None misses a passage. Tier::exact has no false alarms either, where something just clears an edge.
     collision::Tier tier = collision::Tier::fast;
+    /// When the swept boxes of more pairs than this for each face of the cloth overlap in a substep, the rest of it is
+    /// left out. A cloth that swings has about 12, one shaken by several edges' length a substep about 80, an exploded
+    /// one all there are, which takes the square of its size. The first time, the world's log says so.
+    int mostPairsPerFace = 500;
     /// Called for each passage, in the step, in no order of time within a substep; or null. It must not change bodies.
     std::function<void(const Passage&)> onPassage = nullptr;
   };
@@ -68,7 +73,7 @@ class CollisionAudit : public Effect {
   /// passages() keeps no more of a substep than this; all are counted.
   static constexpr int kMostKept = 1024;
 
-  /// Throws std::invalid_argument when this build lacks the tier.
+  /// Throws std::invalid_argument when this build lacks the tier, or mostPairsPerFace is not positive.
   explicit CollisionAudit(Parameters parameters);
   ~CollisionAudit() override;
   CollisionAudit(const CollisionAudit&) = delete;
@@ -101,6 +106,8 @@ class CollisionAudit : public Effect {
 
   void restart();
   void lookUntil(double time);
+  long long mostCandidates() const;
+  void sayIncomplete();
   bool followOthers();
   bool follow(const btSoftBody& body);
   bool isOurs(const btSoftBody& other) const;

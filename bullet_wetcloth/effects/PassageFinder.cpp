@@ -12,40 +12,60 @@ inline namespace WETCLOTH_PRECISION {
 namespace {
 
 using collision::Pair;
-using Point = SweptFaces::Point;
+
+using Nodes = const SweptFaces::Position* [4];
+
+struct Sides {
+  int before;
+  int after;
+};
 
 // Sign of (b - a) x (c - a) . (d - a): which side of the plane a b c the point d is on, or which way one edge passes
-// the other. 0 when rounding leaves it open; the bound is that of Shewchuk's orient3d (1997).
-int sideOf(const Point& a, const Point& b, const Point& c, const Point& d) {
-  double u[3];
-  double v[3];
-  double w[3];
-  for (int k = 0; k < 3; ++k) {
-    u[k] = static_cast<double>(b[k]) - static_cast<double>(a[k]);
-    v[k] = static_cast<double>(c[k]) - static_cast<double>(a[k]);
-    w[k] = static_cast<double>(d[k]) - static_cast<double>(a[k]);
-  }
-  double volume = 0;
-  double size = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double left = u[(k + 1) % 3] * v[(k + 2) % 3];
-    const double right = u[(k + 2) % 3] * v[(k + 1) % 3];
-    volume += (left - right) * w[k];
-    size += (std::fabs(left) + std::fabs(right)) * std::fabs(w[k]);
+// the other. 0 when rounding leaves it open; the bound is that of Shewchuk's orient3d (1997). Both moments at a time,
+// for the compiler to make wide instructions of.
+Sides sidesOf(const Nodes& nodes) {
+  const auto& a = nodes[0]->at;
+  const auto& b = nodes[1]->at;
+  const auto& c = nodes[2]->at;
+  const auto& d = nodes[3]->at;
+  double volume[2], size[2];
+  for (int m = 0; m < 2; ++m) {
+    const double u[3] = {b[0][m] - a[0][m], b[1][m] - a[1][m], b[2][m] - a[2][m]};
+    const double v[3] = {c[0][m] - a[0][m], c[1][m] - a[1][m], c[2][m] - a[2][m]};
+    const double w[3] = {d[0][m] - a[0][m], d[1][m] - a[1][m], d[2][m] - a[2][m]};
+    const double left[3] = {u[1] * v[2], u[2] * v[0], u[0] * v[1]};
+    const double right[3] = {u[2] * v[1], u[0] * v[2], u[1] * v[0]};
+    volume[m] = (left[0] - right[0]) * w[0] + (left[1] - right[1]) * w[1] + (left[2] - right[2]) * w[2];
+    size[m] = (std::fabs(left[0]) + std::fabs(right[0])) * std::fabs(w[0]) +
+              (std::fabs(left[1]) + std::fabs(right[1])) * std::fabs(w[1]) +
+              (std::fabs(left[2]) + std::fabs(right[2])) * std::fabs(w[2]);
   }
   constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
-  const double error = (7 + 56 * unit) * unit * size;
-  return volume > error ? 1 : volume < -error ? -1 : 0;
+  constexpr double bound = (7 + 56 * unit) * unit;
+  const auto sign = [&](int m) { return (volume[m] > bound * size[m]) - (volume[m] < -bound * size[m]); };
+  return {sign(0), sign(1)};
 }
 
-void copy(const Point& from, Point& to) { std::copy(from, from + 3, to); }
-
-bool isCornerOf(const SweptFaces::Face& face, int node) {
-  return face.nodes[0] == node || face.nodes[1] == node || face.nodes[2] == node;
+// Without branches, here and where they are called: nearly half of the pairs have a common node, in no order that a
+// processor could foresee.
+bool contains(const int (&corners)[3], int node) {
+  return (corners[0] == node) | (corners[1] == node) | (corners[2] == node);
 }
 
 bool shareANode(const int (&e)[2], const int (&f)[2]) {
-  return e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1];
+  return (e[0] == f[0]) | (e[0] == f[1]) | (e[1] == f[0]) | (e[1] == f[1]);
+}
+
+// Keeps those for which keeps(index) is true, and returns how many.
+template <class Keeps>
+std::size_t filter(int* indices, std::size_t count, const Keeps& keeps) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int index = indices[i];
+    indices[kept] = index;
+    kept += keeps(static_cast<std::size_t>(index)) ? 1 : 0;
+  }
+  return kept;
 }
 
 }  // namespace
@@ -62,46 +82,96 @@ PassageFinder::PassageFinder(collision::Tier tier, OnPassage onPassage)
     block->queries.reserve(kBlock);
     block->questions.reserve(kBlock);
   }
+  for (Near* near : {&m_near, &m_nearOther}) {
+    for (Few* few : {&near->vertices, &near->edges, &near->faces}) few->boxes.resize(SweptFaces::kMostInPatch);
+  }
   m_undecided.reserve(kMostUndecided);
   m_undecidedNext.reserve(kMostUndecided);
 }
 
+void PassageFinder::begin(long long mostCandidates) {
+  m_mostCandidates = m_candidates + mostCandidates;
+  m_isComplete = true;
+}
+
 void PassageFinder::lookAt(const SweptFaces& faces) {
-  faces.visitSelf([&](int a, int b) { lookAt(faces, a, faces, b); });
+  const auto visit = [&](int patch, int other) {
+    lookAt(faces, patch, faces, other);
+    return mayGoOn();
+  };
+  m_isComplete = m_isComplete && faces.visitSelf(visit);
 }
 
 void PassageFinder::lookAt(const SweptFaces& a, const SweptFaces& b) {
-  a.visitPairs(b, [&](int faceOfA, int faceOfB) { lookAt(a, faceOfA, b, faceOfB); });
+  const auto visit = [&](int patchOfA, int patchOfB) {
+    lookAt(a, patchOfA, b, patchOfB);
+    return mayGoOn();
+  };
+  m_isComplete = m_isComplete && a.visitPairs(b, visit);
 }
 
-void PassageFinder::lookAt(const SweptFaces& a, int faceOfA, const SweptFaces& b, int faceOfB) {
-  verticesAgainst(a, faceOfA, b, faceOfB);
-  verticesAgainst(b, faceOfB, a, faceOfA);
-  edgesAgainst(a, faceOfA, b, faceOfB);
+void PassageFinder::lookAt(const SweptFaces& a, int patchOfA, const SweptFaces& b, int patchOfB) {
+  findNear(a, patchOfA, b.boxOf(patchOfB), m_near);
+  if (&a == &b && patchOfA == patchOfB) {
+    verticesAgainstFaces(a, m_near.vertices, a, m_near.faces);
+    edgesAgainstEdges(a, m_near.edges, a, m_near.edges);
+    return;
+  }
+  findNear(b, patchOfB, a.boxOf(patchOfA), m_nearOther);
+  verticesAgainstFaces(a, m_near.vertices, b, m_nearOther.faces);
+  verticesAgainstFaces(b, m_nearOther.vertices, a, m_near.faces);
+  edgesAgainstEdges(a, m_near.edges, b, m_nearOther.edges);
 }
 
-void PassageFinder::verticesAgainst(const SweptFaces& a, int faceOfA, const SweptFaces& b, int faceOfB) {
-  const SweptFaces::Face& face = a.face(faceOfA);
-  const SweptFaces::Face& other = b.face(faceOfB);
-  for (std::size_t i = face.vertexBegin; i < face.vertexEnd; ++i) {
-    const SweptFaces::Vertex& vertex = a.vertex(i);
-    if (!vertex.box.overlaps(b.boxOf(faceOfB))) continue;
-    if (&a == &b && isCornerOf(other, vertex.node)) continue;
-    consider(Pair::vertexFace, {&a, &b, {vertex.node, other.nodes[0], other.nodes[1], other.nodes[2]}});
+void PassageFinder::findNear(const SweptFaces& of, int patch, const SweptBox& box, Near& near) {
+  findNear(of.vertices().boxes, of.patch(patch).vertices, box, near.vertices);
+  findNear(of.edges().boxes, of.patch(patch).edges, box, near.edges);
+  findNear(of.faces().boxes, of.patch(patch).faces, box, near.faces);
+}
+
+void PassageFinder::findNear(const SweptBoxes& boxes, SweptFaces::Range range, const SweptBox& box, Few& few) {
+  few.count = boxes.findOverlapping(box, range.begin, range.end, few.parts.data());
+  for (std::size_t i = 0; i < few.count; ++i) few.boxes.set(i, boxes[static_cast<std::size_t>(few.parts[i])]);
+  for (std::size_t i = few.count; i % SweptBoxes::kWide != 0; ++i) few.boxes.set(i, SweptBox());
+}
+
+void PassageFinder::verticesAgainstFaces(const SweptFaces& a, const Few& vertices, const SweptFaces& b,
+                                         const Few& faces) {
+  const std::size_t end = SweptBoxes::wholeBlocks(faces.count);
+  const bool isOneBody = &a == &b;
+  const auto cornersOf = [&](std::size_t index) -> const auto& {
+    return b.faces().nodes[static_cast<std::size_t>(faces.parts[index])].node;
+  };
+  for (std::size_t i = 0; i < vertices.count; ++i) {
+    const int vertex = a.vertices().nodes[static_cast<std::size_t>(vertices.parts[i])].node[0];
+    const auto isPair = [&](std::size_t face) { return !(isOneBody & contains(cornersOf(face), vertex)); };
+    std::size_t found = faces.boxes.findOverlapping(vertices.boxes[i], 0, end, m_found.data());
+    found = filter(m_found.data(), found, isPair);
+    for (std::size_t j = 0; j < found; ++j) {
+      const auto& corners = cornersOf(static_cast<std::size_t>(m_found[j]));
+      consider(Pair::vertexFace, {&a, &b, {vertex, corners[0], corners[1], corners[2]}});
+    }
   }
 }
 
-void PassageFinder::edgesAgainst(const SweptFaces& a, int faceOfA, const SweptFaces& b, int faceOfB) {
-  const SweptFaces::Face& face = a.face(faceOfA);
-  const SweptFaces::Face& other = b.face(faceOfB);
-  for (std::size_t i = face.edgeBegin; i < face.edgeEnd; ++i) {
-    const SweptFaces::Edge& e = a.edge(i);
-    if (!e.box.overlaps(b.boxOf(faceOfB))) continue;
-    for (std::size_t j = other.edgeBegin; j < other.edgeEnd; ++j) {
-      const SweptFaces::Edge& f = b.edge(j);
-      if (!e.box.overlaps(f.box)) continue;
-      if (&a == &b && shareANode(e.nodes, f.nodes)) continue;
-      consider(Pair::edgeEdge, {&a, &b, {e.nodes[0], e.nodes[1], f.nodes[0], f.nodes[1]}});
+void PassageFinder::edgesAgainstEdges(const SweptFaces& a, const Few& edges, const SweptFaces& b, const Few& others) {
+  const std::size_t end = SweptBoxes::wholeBlocks(others.count);
+  const bool isOneBody = &a == &b;
+  const bool isOnePatch = &edges == &others;  // has each pair in both orders
+  const auto endsOf = [&](std::size_t index) -> const auto& {
+    return b.edges().nodes[static_cast<std::size_t>(others.parts[index])].node;
+  };
+  for (std::size_t i = 0; i < edges.count; ++i) {
+    const auto& e = a.edges().nodes[static_cast<std::size_t>(edges.parts[i])].node;
+    const auto isPair = [&](std::size_t other) {
+      return !((isOneBody & shareANode(e, endsOf(other))) | (isOnePatch & (other < i)));
+    };
+    const std::size_t begin = isOnePatch ? i / SweptBoxes::kWide * SweptBoxes::kWide : 0;
+    std::size_t found = others.boxes.findOverlapping(edges.boxes[i], begin, end, m_found.data());
+    found = filter(m_found.data(), found, isPair);
+    for (std::size_t j = 0; j < found; ++j) {
+      const auto& f = endsOf(static_cast<std::size_t>(m_found[j]));
+      consider(Pair::edgeEdge, {&a, &b, {e[0], e[1], f[0], f[1]}});
     }
   }
 }
@@ -110,21 +180,22 @@ void PassageFinder::edgesAgainst(const SweptFaces& a, int faceOfA, const SweptFa
 void PassageFinder::consider(Pair pair, const Subject& subject) {
   ++m_candidates;
   const int firstNodes = pair == Pair::vertexFace ? 1 : 2;
-  const SweptFaces::Position* at[4];
+  Nodes at;
   for (int k = 0; k < 4; ++k) {
     at[k] = &(k < firstNodes ? subject.first : subject.second)->position(subject.nodes[k]);
   }
-  int before = sideOf(at[0]->start, at[1]->start, at[2]->start, at[3]->start);
-  const int after = sideOf(at[0]->end, at[1]->end, at[2]->end, at[3]->end);
-  if (before == 0) before = rememberedSide(pair, subject);
-  if (before == 0 || before == after) return;
+  Sides sides = sidesOf(at);
+  if (sides.before == 0) sides.before = rememberedSide(pair, subject);
+  if (sides.before == 0 || sides.before == sides.after) return;
   Block& block = blockOf(pair);
   block.queries.emplace_back();
-  for (int k = 0; k < 4; ++k) {
-    copy(at[k]->start, block.queries.back().start[k]);
-    copy(at[k]->end, block.queries.back().end[k]);
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      block.queries.back().start[k][axis] = at[k]->start(axis);
+      block.queries.back().end[k][axis] = at[k]->end(axis);
+    }
   }
-  block.questions.push_back({subject, before, after});
+  block.questions.push_back({subject, sides.before, sides.after});
   if (block.queries.size() == kBlock) ask(pair);
 }
 
@@ -156,12 +227,13 @@ void PassageFinder::ask(Pair pair) {
   block.questions.clear();
 }
 
-void PassageFinder::finish() {
+bool PassageFinder::finish() {
   ask(Pair::vertexFace);
   ask(Pair::edgeEdge);
   std::sort(m_undecidedNext.begin(), m_undecidedNext.end());
   m_undecided.swap(m_undecidedNext);
   m_undecidedNext.clear();
+  return m_isComplete;
 }
 
 void PassageFinder::forget() {

@@ -30,12 +30,15 @@ class PassageFinder {
 
   PassageFinder(collision::Tier tier, OnPassage onPassage);
 
+  /// Before all lookAt() of a substep, which together look at no more than this many pairs (and a few).
+  void begin(long long mostCandidates);
   /// Looks at the vertices, faces and edges of one body.
   void lookAt(const SweptFaces& faces);
   /// Looks at those of two bodies.
   void lookAt(const SweptFaces& a, const SweptFaces& b);
-  /// After all lookAt() of a substep: reports what is left, and keeps what met without a side.
-  void finish();
+  /// After all lookAt() of a substep: reports what is left, and keeps what met without a side. Returns whether all
+  /// pairs were looked at.
+  bool finish();
   /// Forgets which pairs were meeting.
   void forget();
 
@@ -66,13 +69,28 @@ class PassageFinder {
     std::vector<Question> questions;
   };
 
-  void lookAt(const SweptFaces& a, int faceOfA, const SweptFaces& b, int faceOfB);
-  void verticesAgainst(const SweptFaces& a, int faceOfA, const SweptFaces& b, int faceOfB);
-  void edgesAgainst(const SweptFaces& a, int faceOfA, const SweptFaces& b, int faceOfB);
+  // Parts of one kind, of a patch, and their boxes in blocks of their own.
+  struct Few {
+    SweptBoxes boxes;
+    std::array<int, SweptFaces::kMostInPatch> parts;
+    std::size_t count = 0;
+  };
+  // What of a patch may meet another patch.
+  struct Near {
+    Few vertices, edges, faces;
+  };
+
+  void lookAt(const SweptFaces& a, int patchOfA, const SweptFaces& b, int patchOfB);
+  void findNear(const SweptFaces& of, int patch, const SweptBox& box, Near& near);
+  void findNear(const SweptBoxes& boxes, SweptFaces::Range range, const SweptBox& box, Few& few);
+  void verticesAgainstFaces(const SweptFaces& a, const Few& vertices, const SweptFaces& b, const Few& faces);
+  void edgesAgainstEdges(const SweptFaces& a, const Few& edges, const SweptFaces& b, const Few& others);
   void consider(collision::Pair pair, const Subject& subject);
   int rememberedSide(collision::Pair pair, const Subject& subject) const;
   Block& blockOf(collision::Pair pair) { return pair == collision::Pair::vertexFace ? m_vertexFace : m_edgeEdge; }
   void ask(collision::Pair pair);
+
+  bool mayGoOn() const { return m_candidates < m_mostCandidates; }
 
   collision::ContinuousCheck m_check;
   OnPassage m_onPassage;
@@ -81,7 +99,12 @@ class PassageFinder {
   std::vector<collision::Contact> m_contacts;
   std::vector<Undecided> m_undecided;      // at the end of the last substep, sorted
   std::vector<Undecided> m_undecidedNext;  // at the end of this one
+  Near m_near;
+  Near m_nearOther;
+  std::array<int, SweptFaces::kMostInPatch> m_found;  // of a search among boxes
   long long m_candidates = 0;
+  long long m_mostCandidates = 0;
+  bool m_isComplete = true;  // so far in this substep
 };
 
 }  // namespace WETCLOTH_PRECISION

@@ -9,9 +9,7 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-bool isFinite(const btScalar (&point)[3]) {
-  return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
-}
+constexpr int kGap = -1;  // the first node of a gap between patches
 
 // Only for the shape of the tree, which sorts by it: not finite would have no order.
 btVector3 centreOf(const btSoftBody::Face& face) {
@@ -19,56 +17,95 @@ btVector3 centreOf(const btSoftBody::Face& face) {
   return std::isfinite(centre.length2()) ? centre : btVector3(0, 0, 0);
 }
 
+float floatNotAbove(double value) {
+  const float rounded = static_cast<float>(value);
+  return static_cast<double>(rounded) > value ? std::nextafter(rounded, -SweptBox::kInfinity) : rounded;
+}
+
+float floatNotBelow(double value) {
+  const float rounded = static_cast<float>(value);
+  return static_cast<double>(rounded) < value ? std::nextafter(rounded, SweptBox::kInfinity) : rounded;
+}
+
+SweptBox sweptBy(const SweptFaces::Position& position) {
+  SweptBox box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double start = position.at[k][0];
+    const double end = position.at[k][1];
+    if (!std::isfinite(start) || !std::isfinite(end)) return SweptBox();
+    box.low[k] = floatNotAbove(std::min(start, end));
+    box.high[k] = floatNotBelow(std::max(start, end));
+  }
+  return box;
+}
+
+// Fills up to whole blocks: what is compared together belongs to one patch.
+template <int nodeCount>
+SweptFaces::Range closePatch(SweptFaces::Parts<nodeCount>& parts) {
+  const std::size_t begin = parts.boxes.size();
+  typename SweptFaces::Parts<nodeCount>::Nodes gap;
+  std::fill(std::begin(gap.node), std::end(gap.node), kGap);
+  gap.face = kGap;
+  parts.nodes.resize(SweptBoxes::wholeBlocks(parts.nodes.size()), gap);
+  parts.boxes.resize(parts.nodes.size());
+  return {begin, parts.nodes.size()};
+}
+
+// Returns whether all are finite.
+template <int nodeCount>
+bool refitParts(SweptFaces::Parts<nodeCount>& parts, const std::vector<SweptBox>& nodeBoxes) {
+  bool allFinite = true;
+  for (std::size_t i = 0; i < parts.nodes.size(); ++i) {
+    if (parts.nodes[i].node[0] == kGap) continue;
+    SweptBox box;
+    bool isFinite = true;
+    for (const int node : parts.nodes[i].node) {
+      const SweptBox& nodeBox = nodeBoxes[static_cast<std::size_t>(node)];
+      isFinite = isFinite && !nodeBox.isEmpty();
+      box.include(nodeBox);
+    }
+    parts.boxes.set(i, isFinite ? box : SweptBox());
+    allFinite = allFinite && isFinite;
+  }
+  return allFinite;
+}
+
+template <int nodeCount>
+void leaveOutWithTheirFaces(SweptFaces::Parts<nodeCount>& parts, const SweptBoxes& faces) {
+  for (std::size_t i = 0; i < parts.nodes.size(); ++i) {
+    if (parts.nodes[i].node[0] == kGap) continue;
+    if (faces[static_cast<std::size_t>(parts.nodes[i].face)].isEmpty()) parts.boxes.set(i, SweptBox());
+  }
+}
+
 }  // namespace
 
 void SweptFaces::build(const btSoftBody& body) {
   m_body = &body;
-  m_faces.resize(static_cast<std::size_t>(body.m_faces.size()));
+  m_faceCount = body.m_faces.size();
   m_positions.resize(static_cast<std::size_t>(body.m_nodes.size()));
-  std::vector<btVector3> centres(m_faces.size());
-  std::vector<int> order(m_faces.size());
-  for (std::size_t f = 0; f < m_faces.size(); ++f) {
-    const btSoftBody::Face& face = body.m_faces[static_cast<int>(f)];
-    m_faces[f] = Face();
-    for (std::size_t k = 0; k < 3; ++k) m_faces[f].nodes[k] = static_cast<int>(face.m_n[k] - &body.m_nodes[0]);
-    centres[f] = centreOf(face);
-    order[f] = static_cast<int>(f);
-  }
-  assignOwners();
+  m_nodeBoxes.resize(m_positions.size());
+  m_faces = {};
   m_tree.clear();
-  m_tree.reserve(2 * m_faces.size());
-  m_leafOfFace.resize(m_faces.size());
-  if (!order.empty()) buildTree(order.data(), order.data() + order.size(), centres);
+  m_patches.clear();
+  std::vector<btVector3> centres;
+  std::vector<int> order;
+  for (int f = 0; f < body.m_faces.size(); ++f) {
+    centres.push_back(centreOf(body.m_faces[f]));
+    order.push_back(f);
+  }
+  if (!order.empty()) buildTree(order.data(), order.data() + order.size(), body, centres);
+  assignOwners();
   restart(body);
 }
 
-void SweptFaces::assignOwners() {
-  std::vector<bool> isOwned(m_positions.size(), false);
-  std::set<std::pair<int, int>> edges;
-  m_vertices.clear();
-  m_edges.clear();
-  for (Face& face : m_faces) {
-    face.vertexBegin = m_vertices.size();
-    face.edgeBegin = m_edges.size();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int node = face.nodes[k];
-      const int next = face.nodes[(k + 1) % 3];
-      if (!isOwned[static_cast<std::size_t>(node)]) m_vertices.push_back({node, {}});
-      isOwned[static_cast<std::size_t>(node)] = true;
-      if (edges.insert(std::minmax(node, next)).second) m_edges.push_back({{node, next}, {}});
-    }
-    face.vertexEnd = m_vertices.size();
-    face.edgeEnd = m_edges.size();
-  }
-}
-
 // Splits at the median along the longest side, so the tree is as shallow as can be.
-void SweptFaces::buildTree(int* first, int* last, const std::vector<btVector3>& centres) {
+void SweptFaces::buildTree(int* first, int* last, const btSoftBody& body, const std::vector<btVector3>& centres) {
   const std::size_t index = m_tree.size();
   m_tree.emplace_back();
-  if (last - first == 1) {
-    m_tree[index].face = *first;
-    m_leafOfFace[static_cast<std::size_t>(*first)] = static_cast<int>(index);
+  m_tree[index].firstPatch = static_cast<int>(m_patches.size());
+  if (last - first <= static_cast<std::ptrdiff_t>(kPatchFaces)) {
+    addPatch(first, last, body);
     return;
   }
   const auto centre = [&](int face) -> const btVector3& { return centres[static_cast<std::size_t>(face)]; };
@@ -81,14 +118,48 @@ void SweptFaces::buildTree(int* first, int* last, const std::vector<btVector3>& 
   const int axis = (high - low).maxAxis();
   int* const middle = first + (last - first) / 2;
   std::nth_element(first, middle, last, [&](int a, int b) { return centre(a)[axis] < centre(b)[axis]; });
-  buildTree(first, middle, centres);
+  buildTree(first, middle, body, centres);
   m_tree[index].right = static_cast<int>(m_tree.size());
-  buildTree(middle, last, centres);
+  buildTree(middle, last, body, centres);
+  m_tree[index].patches = static_cast<int>(m_patches.size()) - m_tree[index].firstPatch;
+}
+
+void SweptFaces::addPatch(const int* first, const int* last, const btSoftBody& body) {
+  for (; first != last; ++first) {
+    const btSoftBody::Face& face = body.m_faces[*first];
+    const auto nodeAt = [&](int corner) { return static_cast<int>(face.m_n[corner] - &body.m_nodes[0]); };
+    const int index = static_cast<int>(m_faces.nodes.size());
+    m_faces.nodes.push_back({{nodeAt(0), nodeAt(1), nodeAt(2)}, index});
+  }
+  m_patches.push_back({{}, {}, closePatch(m_faces)});
+}
+
+void SweptFaces::assignOwners() {
+  std::vector<bool> isOwned(m_positions.size(), false);
+  std::set<std::pair<int, int>> edges;
+  m_vertices = {};
+  m_edges = {};
+  for (Patch& patch : m_patches) {
+    for (std::size_t f = patch.faces.begin; f < patch.faces.end; ++f) {
+      const auto& corners = m_faces.nodes[f].node;
+      const int owner = static_cast<int>(f);
+      for (std::size_t k = 0; k < 3 && corners[0] != kGap; ++k) {
+        const int node = corners[k];
+        const int next = corners[(k + 1) % 3];
+        if (!isOwned[static_cast<std::size_t>(node)]) m_vertices.nodes.push_back({{node}, owner});
+        isOwned[static_cast<std::size_t>(node)] = true;
+        if (edges.insert(std::minmax(node, next)).second) m_edges.nodes.push_back({{node, next}, owner});
+      }
+    }
+    patch.vertices = closePatch(m_vertices);
+    patch.edges = closePatch(m_edges);
+  }
+  m_patchBoxes.resize(m_patches.size());
 }
 
 bool SweptFaces::fits(const btSoftBody& body) const {
   return m_body == &body && static_cast<int>(m_positions.size()) == body.m_nodes.size() &&
-         static_cast<int>(m_faces.size()) == body.m_faces.size();
+         m_faceCount == body.m_faces.size();
 }
 
 void SweptFaces::restart(const btSoftBody& body) {
@@ -100,47 +171,43 @@ bool SweptFaces::advance(const btSoftBody& body) {
   bool moved = false;
   for (std::size_t i = 0; i < m_positions.size(); ++i) {
     const btVector3& now = body.m_nodes[static_cast<int>(i)].m_x;
-    Position& position = m_positions[i];
     for (int k = 0; k < 3; ++k) {
-      position.start[k] = position.end[k];
-      position.end[k] = now[k];
-      moved |= !(position.start[k] == position.end[k]);
+      double(&at)[2] = m_positions[i].at[k];
+      at[0] = at[1];
+      at[1] = static_cast<double>(now[k]);
+      moved |= !(at[0] == at[1]);
     }
   }
   return moved;
 }
 
-SweptBox SweptFaces::boxOfNode(int node) const {
-  const Position& at = position(node);
-  SweptBox box;
-  if (!isFinite(at.start) || !isFinite(at.end)) return box;
-  box.include(at.start);
-  box.include(at.end);
-  return box;
-}
-
 void SweptFaces::refit() {
-  for (Vertex& vertex : m_vertices) vertex.box = boxOfNode(vertex.node);
-  for (Edge& edge : m_edges) {
-    edge.box = boxOfNode(edge.nodes[0]);
-    edge.box.include(boxOfNode(edge.nodes[1]));
+  for (std::size_t i = 0; i < m_positions.size(); ++i) m_nodeBoxes[i] = sweptBy(m_positions[i]);
+  refitParts(m_vertices, m_nodeBoxes);
+  refitParts(m_edges, m_nodeBoxes);
+  if (!refitParts(m_faces, m_nodeBoxes)) {
+    leaveOutWithTheirFaces(m_vertices, m_faces.boxes);
+    leaveOutWithTheirFaces(m_edges, m_faces.boxes);
   }
   for (std::size_t i = m_tree.size(); i-- > 0;) {
     TreeNode& node = m_tree[i];
-    node.box = SweptBox();
-    if (!node.isLeaf()) {
-      node.box.include(m_tree[i + 1].box);
+    if (node.isLeaf()) {
+      node.box = boxOfPatch(m_patches[static_cast<std::size_t>(node.firstPatch)]);
+      m_patchBoxes[static_cast<std::size_t>(node.firstPatch)] = node.box;
+    } else {
+      node.box = m_tree[i + 1].box;
       node.box.include(m_tree[static_cast<std::size_t>(node.right)].box);
-      continue;
     }
-    bool finite = true;
-    for (const int corner : face(node.face).nodes) {
-      const SweptBox box = boxOfNode(corner);
-      finite = finite && !box.isEmpty();
-      node.box.include(box);
-    }
-    if (!finite) node.box = SweptBox();
   }
+}
+
+// Of its nodes that are finite: more than needed where a face is left out, which costs time only.
+SweptBox SweptFaces::boxOfPatch(const Patch& patch) const {
+  SweptBox box;
+  for (std::size_t f = patch.faces.begin; f < patch.faces.end && m_faces.nodes[f].node[0] != kGap; ++f) {
+    for (const int node : m_faces.nodes[f].node) box.include(m_nodeBoxes[static_cast<std::size_t>(node)]);
+  }
+  return box;
 }
 
 }  // namespace WETCLOTH_PRECISION

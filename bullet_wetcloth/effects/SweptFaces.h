@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/effects/SweptBoxes.h"
 
 #include <BulletSoftBody/btSoftBody.h>
 
@@ -12,59 +12,40 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-/// A box along the axes; empty at first. Boxes that only touch overlap, an empty one overlaps nothing.
-struct SweptBox {
-  btScalar low[3] = {std::numeric_limits<btScalar>::infinity(), std::numeric_limits<btScalar>::infinity(),
-                     std::numeric_limits<btScalar>::infinity()};
-  btScalar high[3] = {-std::numeric_limits<btScalar>::infinity(), -std::numeric_limits<btScalar>::infinity(),
-                      -std::numeric_limits<btScalar>::infinity()};
-
-  void include(const btScalar (&point)[3]) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], point[k]);
-      high[k] = std::max(high[k], point[k]);
-    }
-  }
-  void include(const SweptBox& other) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], other.low[k]);
-      high[k] = std::max(high[k], other.high[k]);
-    }
-  }
-  bool isEmpty() const { return high[0] < low[0]; }
-  bool overlaps(const SweptBox& other) const {
-    bool result = true;
-    for (std::size_t k = 0; k < 3; ++k) result &= low[k] <= other.high[k] && other.low[k] <= high[k];
-    return result;
-  }
-};
-
-/// The faces of a soft body between two moments, in a tree of the boxes that they sweep.
+/// The faces of a soft body between two moments, in a tree of the boxes that they sweep. The leaves are patches of a
+/// few faces: neighbours overlap in any case, so a tree that tells them apart takes longer than it saves.
 ///
 /// Bullet's own trees cannot serve: at the end of a substep their boxes are those of its prediction, not of where the
 /// solver put the nodes, and many bodies have no tree of faces at all. See docs/bullet_notes.md.
 class SweptFaces {
  public:
-  using Point = btScalar[3];
+  /// Of the vertices, edges or faces of a patch, with the gaps after them.
+  static constexpr std::size_t kMostInPatch = SweptBoxes::kMost;
+  static constexpr std::size_t kPatchFaces = kMostInPatch / 3;
 
-  /// A vertex or an edge that faces share belongs to one of them, so that each pair of them is met once. A face's own
-  /// follow one another.
-  struct Face {
-    int nodes[3];
-    std::size_t vertexBegin, vertexEnd;
-    std::size_t edgeBegin, edgeEnd;
+  /// Which of a kind of parts belong to a patch: begin and end are multiples of SweptBoxes::kWide.
+  struct Range {
+    std::size_t begin, end;
   };
-  struct Vertex {
-    int node;
-    SweptBox box;
+  /// A vertex or an edge that faces share belongs to the patch of one of them, so that each pair is met once.
+  struct Patch {
+    Range vertices, edges, faces;
   };
-  struct Edge {
-    int nodes[2];
-    SweptBox box;
+  /// All parts of one kind: the vertices, the edges or the faces. Gaps between patches have empty boxes.
+  template <int nodeCount>
+  struct Parts {
+    struct Nodes {
+      int node[nodeCount];
+      int face;  // that it belongs to: an index among the faces
+    };
+    std::vector<Nodes> nodes;
+    SweptBoxes boxes;
   };
+  /// Where a node is at both moments: the numbers of the body, as the double that the volumes are computed in.
   struct Position {
-    Point start;
-    Point end;
+    double at[3][2];
+    btScalar start(std::size_t axis) const { return static_cast<btScalar>(at[axis][0]); }
+    btScalar end(std::size_t axis) const { return static_cast<btScalar>(at[axis][1]); }
   };
 
   /// Takes the body's faces, and its present positions for both moments. Allocates.
@@ -75,85 +56,74 @@ class SweptFaces {
   void restart(const btSoftBody& body);
   /// The end becomes the start, and the body's present positions the end. Returns whether any node moved.
   bool advance(const btSoftBody& body);
-  /// Fits the boxes to the positions. A face with a corner that is not finite gets an empty box.
+  /// Fits the boxes to the positions. A face with a node that is not finite and what belongs to it get empty boxes.
   void refit();
 
   const btSoftBody* body() const { return m_body; }
-  const Face& face(int index) const { return m_faces[static_cast<std::size_t>(index)]; }
-  const Vertex& vertex(std::size_t index) const { return m_vertices[index]; }
-  const Edge& edge(std::size_t index) const { return m_edges[index]; }
   const Position& position(int node) const { return m_positions[static_cast<std::size_t>(node)]; }
-  const SweptBox& boxOf(int face) const {
-    return m_tree[static_cast<std::size_t>(m_leafOfFace[std::size_t(face)])].box;
-  }
+  const Parts<1>& vertices() const { return m_vertices; }
+  const Parts<2>& edges() const { return m_edges; }
+  const Parts<3>& faces() const { return m_faces; }
+  const Patch& patch(int index) const { return m_patches[static_cast<std::size_t>(index)]; }
+  const SweptBox& boxOf(int patch) const { return m_patchBoxes[static_cast<std::size_t>(patch)]; }
 
-  /// Calls visit(face, otherFace) once for each two faces of this body of which the boxes overlap.
+  /// Calls visit(patch, otherPatch) once for each two patches of this body of which the boxes overlap, and for each
+  /// patch with itself, for as long as it returns true. Returns whether it did to the end.
   template <class Visit>
-  void visitSelf(const Visit& visit) const {
-    if (!m_tree.empty()) visitSelf(0, visit);
+  bool visitSelf(const Visit& visit) const {
+    return m_tree.empty() || visitSelf(0, visit);
   }
-  /// The same for a face of this body and one of another.
+  /// The same for a patch of this body and one of another.
   template <class Visit>
-  void visitPairs(const SweptFaces& other, const Visit& visit) const {
-    if (!m_tree.empty() && !other.m_tree.empty()) visitPairs(0, other, 0, visit);
+  bool visitPairs(const SweptFaces& other, const Visit& visit) const {
+    return m_tree.empty() || other.m_tree.empty() || visitPairs(0, other, 0, visit);
   }
 
  private:
-  // In preorder: the left child follows its parent.
+  // In preorder: the left child follows its parent. Patches have the order of their leaves.
   struct TreeNode {
     SweptBox box;
     int right = 0;
-    int face = -1;  // of a leaf
-    bool isLeaf() const { return face >= 0; }
+    int firstPatch = 0;
+    int patches = 1;
+    bool isLeaf() const { return patches == 1; }
   };
 
+  void buildTree(int* first, int* last, const btSoftBody& body, const std::vector<btVector3>& centres);
+  void addPatch(const int* first, const int* last, const btSoftBody& body);
   void assignOwners();
-  SweptBox boxOfNode(int node) const;
-  void buildTree(int* first, int* last, const std::vector<btVector3>& centres);
+  SweptBox boxOfPatch(const Patch& patch) const;
   const TreeNode& at(int index) const { return m_tree[static_cast<std::size_t>(index)]; }
 
   template <class Visit>
-  void visitSelf(int index, const Visit& visit) const {
+  bool visitSelf(int index, const Visit& visit) const {
     const TreeNode& node = at(index);
-    if (node.isLeaf()) return;
-    visitSelf(index + 1, visit);
-    visitSelf(node.right, visit);
-    visitPairs(index + 1, *this, node.right, visit);
+    if (node.isLeaf()) return visit(node.firstPatch, node.firstPatch);
+    return visitSelf(index + 1, visit) && visitSelf(node.right, visit) &&
+           visitPairs(index + 1, *this, node.right, visit);
   }
   template <class Visit>
-  void visitPairs(int index, const SweptFaces& other, int otherIndex, const Visit& visit) const {
+  bool visitPairs(int index, const SweptFaces& other, int otherIndex, const Visit& visit) const {
     const TreeNode& a = at(index);
     const TreeNode& b = other.at(otherIndex);
-    if (!a.box.overlaps(b.box)) return;
-    if (a.isLeaf() && b.isLeaf()) {
-      visit(a.face, b.face);
-    } else if (a.isLeaf()) {
-      visitPairs(index, other, otherIndex + 1, visit);
-      visitPairs(index, other, b.right, visit);
-    } else {
-      visitBoth(index + 1, other, otherIndex, visit);
-      visitBoth(a.right, other, otherIndex, visit);
+    if (!a.box.overlaps(b.box)) return true;
+    if (a.isLeaf() && b.isLeaf()) return visit(a.firstPatch, b.firstPatch);
+    if (a.patches >= b.patches) {
+      return visitPairs(index + 1, other, otherIndex, visit) && visitPairs(a.right, other, otherIndex, visit);
     }
-  }
-  // Goes down in the other tree, too: the two are about equally deep.
-  template <class Visit>
-  void visitBoth(int index, const SweptFaces& other, int otherIndex, const Visit& visit) const {
-    const TreeNode& b = other.at(otherIndex);
-    if (b.isLeaf()) {
-      visitPairs(index, other, otherIndex, visit);
-    } else if (at(index).box.overlaps(b.box)) {
-      visitPairs(index, other, otherIndex + 1, visit);
-      visitPairs(index, other, b.right, visit);
-    }
+    return visitPairs(index, other, otherIndex + 1, visit) && visitPairs(index, other, b.right, visit);
   }
 
   const btSoftBody* m_body = nullptr;
-  std::vector<Face> m_faces;
-  std::vector<Vertex> m_vertices;
-  std::vector<Edge> m_edges;
+  int m_faceCount = 0;
   std::vector<Position> m_positions;
+  std::vector<SweptBox> m_nodeBoxes;
+  Parts<1> m_vertices;
+  Parts<2> m_edges;
+  Parts<3> m_faces;
+  std::vector<Patch> m_patches;
+  std::vector<SweptBox> m_patchBoxes;
   std::vector<TreeNode> m_tree;
-  std::vector<int> m_leafOfFace;
 };
 
 }  // namespace WETCLOTH_PRECISION

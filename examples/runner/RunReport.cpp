@@ -18,6 +18,7 @@ std::optional<wetcloth::AuditTotals> sumOf(const std::vector<wetcloth::Collision
     sum->vertexFace += totals.vertexFace;
     sum->edgeEdge += totals.edgeEdge;
     sum->candidatePairs += totals.candidatePairs;
+    sum->incompleteSubsteps = std::max(sum->incompleteSubsteps, totals.incompleteSubsteps);
     sum->substeps = std::max(sum->substeps, totals.substeps);
     sum->seconds = std::max(sum->seconds, totals.seconds);
   }
@@ -93,8 +94,10 @@ nlohmann::ordered_json RunReport::json() const {
                     {"held", m_ledger.held}};
   json["saturation"] = {{"min", m_saturation.min}, {"mean", m_saturation.mean}, {"max", m_saturation.max}};
   if (m_audit) {
-    json["audit"] = {
-        {"vertex_face", m_audit->vertexFace}, {"edge_edge", m_audit->edgeEdge}, {"per_second", m_audit->perSecond()}};
+    json["audit"] = {{"vertex_face", m_audit->vertexFace},
+                     {"edge_edge", m_audit->edgeEdge},
+                     {"per_second", m_audit->perSecond()},
+                     {"incomplete_substeps", m_audit->incompleteSubsteps}};
   }
   json["centre_of_mass"] = {m_moment[0] / m_mass, m_moment[1] / m_mass, m_moment[2] / m_mass};
   json["max_speed"] = m_maxSpeed;

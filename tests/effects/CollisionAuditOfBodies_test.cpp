@@ -201,6 +201,47 @@ TEST_P(AuditOfBodies, CanBeRemovedAndAddedAgain) {
   EXPECT_GE(second.totals().vertexFace, 9 + 9);
 }
 
+// Everything is thrown about in the space of 10 sheets, so that nearly every two swept boxes overlap.
+void explode(btSoftBody& body, int round) {
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    const auto anywhere = [&](int k) {
+      return btScalar(std::fmod(7.3 * std::sin(12.9 * i + 78.2 * (k + 3 * round)), 10));
+    };
+    body.m_nodes[i].m_x = btVector3(anywhere(0), anywhere(1), anywhere(2));
+  }
+}
+
+TEST_P(AuditOfBodies, AnExplodedSheetIsLookedAtUpToTheLimitWhichIsSaidOnce) {
+  for (const bool limited : {false, true}) {
+    CoreScene scene(GetParam(), squarePatch(20), btVector3(0, 0, 0));
+    wetcloth::WetClothWorld wet(scene.world());
+    std::vector<std::string> said;
+    wet.setLog([&said](const std::string& message) { said.push_back(message); });
+    CollisionAudit::Parameters parameters;
+    parameters.mostPairsPerFace = limited ? 20 : 1000000;
+    CollisionAudit& audit = wet.add(scene.body()).add<CollisionAudit>(parameters);
+    scene.bullet.step(1);
+    audit.look();
+    EXPECT_EQ(audit.totals().incompleteSubsteps, 0);
+    const long long before = audit.totals().candidatePairs;
+    for (const int round : {1, 2, 3}) {
+      explode(scene.body(), round);
+      audit.look();
+    }
+    const long long perFace = (audit.totals().candidatePairs - before) / (3 * scene.body().m_faces.size());
+    EXPECT_EQ(audit.totals().incompleteSubsteps, limited ? 3 : 0);
+    EXPECT_EQ(said.size(), limited ? 1u : 0u);
+    EXPECT_GE(perFace, limited ? 20 : 500);
+    EXPECT_LE(perFace, limited ? 30 : 5000) << "it stops after the patch that reached the limit";
+  }
+}
+
+TEST(CollisionAuditLimit, HasToBePositive) {
+  CollisionAudit::Parameters parameters;
+  parameters.mostPairsPerFace = 0;
+  EXPECT_THROW(CollisionAudit{parameters}, std::invalid_argument);
+}
+
 class Lines : public btIDebugDraw {
  public:
   int count = 0;
