@@ -55,7 +55,7 @@ TEST(ContinuousCheckAllocation, TheCounterCounts) {
 }
 
 TEST(ContinuousCheckAllocation, NoTierAllocatesOnEitherCollection) {
-  for (const char* collection : {"real", "cloth"})
+  for (const char* collection : {"real", "cloth"}) {
     for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       std::vector<Query<double>> queries;
       for (const KnownQuery& known : knownQueries(collection))
@@ -71,6 +71,7 @@ TEST(ContinuousCheckAllocation, NoTierAllocatesOnEitherCollection) {
         EXPECT_EQ(allocationsOf([&] { check(pair, queries.data(), queries.size(), contacts.data()); }), 0);
       }
     }
+  }
 }
 
 }  // namespace

@@ -19,9 +19,10 @@ template <class Scalar>
 std::vector<Query<Scalar>> mixedQueries(Pair pair, std::size_t count) {
   QueryGenerator generator(count + 1000);
   std::vector<Query<Scalar>> queries;
-  while (queries.size() < count)
+  while (queries.size() < count) {
     for (const QueryClass kind : kQueryClasses)
       if (queries.size() < count) queries.push_back(generator.next<Scalar>(kind, pair));
+  }
   return queries;
 }
 
@@ -48,8 +49,8 @@ using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(ContinuousCheckBatch, Scalars, );
 
 TYPED_TEST(ContinuousCheckBatch, OfEverySizeAnswersLikeSingleQueries) {
-  for (const Tier tier : everyTier())
-    for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge})
+  for (const Tier tier : everyTier()) {
+    for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       for (const std::size_t count : {0u, 1u, 2u, 3u, 7u, 8u, 9u, 15u, 16u, 17u, 63u, 64u, 65u, 1000u}) {
         const ContinuousCheck check(tier);
         const std::vector<Query<TypeParam>> queries = mixedQueries<TypeParam>(pair, count);
@@ -57,15 +58,18 @@ TYPED_TEST(ContinuousCheckBatch, OfEverySizeAnswersLikeSingleQueries) {
         untouched.time = -7;
         std::vector<Contact> contacts(count + 1, untouched);
         check(pair, queries.data(), count, contacts.data());
-        for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t i = 0; i < count; ++i) {
           expectAllowed(tier, contacts[i], check(pair, queries[i]),
                         std::to_string(i) + " of " + std::to_string(count) + " " + literal(pair, queries[i]));
+        }
         EXPECT_TRUE(same(contacts[count], untouched)) << "wrote behind a batch of " << count;
       }
+    }
+  }
 }
 
 TYPED_TEST(ContinuousCheckBatch, MissesNoContactAtAnyPlaceInIt) {
-  for (const Tier tier : everyTier())
+  for (const Tier tier : everyTier()) {
     for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       const ContinuousCheck check(tier);
       QueryGenerator generator(31);
@@ -82,6 +86,7 @@ TYPED_TEST(ContinuousCheckBatch, MissesNoContactAtAnyPlaceInIt) {
         EXPECT_LE(contacts[i].time, quarters[i] / 4.0) << i << ": " << literal(pair, queries[i]);
       }
     }
+  }
 }
 
 TYPED_TEST(ContinuousCheckBatch, OfOneTierFindsNothingThatConservativeExcludes) {
@@ -104,7 +109,7 @@ TYPED_TEST(ContinuousCheckBatch, OfOneTierFindsNothingThatConservativeExcludes) 
 
 TYPED_TEST(ContinuousCheckBatch, MayLieAtAnyAddress) {
   const std::size_t count = 67;
-  for (const Tier tier : everyTier())
+  for (const Tier tier : everyTier()) {
     for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       const ContinuousCheck check(tier);
       const std::vector<Query<TypeParam>> queries = mixedQueries<TypeParam>(pair, count + 8);
@@ -125,10 +130,11 @@ TYPED_TEST(ContinuousCheckBatch, MayLieAtAnyAddress) {
           EXPECT_TRUE(same(contacts[i], whole[i])) << "shifted by " << shift << ", " << i;
       }
     }
+  }
 }
 
 TYPED_TEST(ContinuousCheckBatch, AnswersBadNumbersWithoutHarmToTheOthers) {
-  for (const Tier tier : everyTier())
+  for (const Tier tier : everyTier()) {
     for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       const ContinuousCheck check(tier);
       const std::vector<Query<TypeParam>> good = mixedQueries<TypeParam>(pair, 64);
@@ -150,6 +156,7 @@ TYPED_TEST(ContinuousCheckBatch, AnswersBadNumbersWithoutHarmToTheOthers) {
         }
       }
     }
+  }
 }
 
 TYPED_TEST(ContinuousCheckBatch, GivesTheSameTwice) {

@@ -62,7 +62,7 @@ TYPED_TEST(ContinuousCheckCertain, ContactsAreFoundInTimeAndInPlace) {
   for (const QueryClass kind : kQueryClasses) {
     // Far apart scales are outside of what long double is certain of.
     if (kind == QueryClass::mixedScale || kind == QueryClass::farOffset) continue;
-    for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge})
+    for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       for (int i = 0; i < 2000; ++i) {
         const Query<TypeParam> query = generator.next<TypeParam>(kind, pair);
         const long double time = certainTime(pair, query);
@@ -80,6 +80,7 @@ TYPED_TEST(ContinuousCheckCertain, ContactsAreFoundInTimeAndInPlace) {
               << way.name << " at " << contact.time << ": " << literal(pair, query);
         }
       }
+    }
   }
   EXPECT_GT(met, 3000);
 }

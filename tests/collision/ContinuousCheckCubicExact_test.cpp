@@ -41,15 +41,16 @@ TYPED_TEST_SUITE(CoplanarityCubicExact, Scalars, );
 TYPED_TEST(CoplanarityCubicExact, ErrorBoundsEveryCoefficient) {
   QueryGenerator generator(71);
   int rooted = 0;
-  for (const QueryClass kind : kQueryClasses)
-    for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge})
+  for (const QueryClass kind : kQueryClasses) {
+    for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       for (int i = 0; i < 150; ++i) {
         Query<TypeParam> query = generator.next<TypeParam>(kind, pair);
         // Down to where products underflow, in double.
         const int power = std::is_same<TypeParam, double>::value ? -(i % 5) * 90 : -(i % 3) * 30;
-        for (auto* points : {&query.start, &query.end})
+        for (auto* points : {&query.start, &query.end}) {
           for (auto& point : *points)
             for (TypeParam& coordinate : point) coordinate = std::ldexp(coordinate, power);
+        }
         Rational exact[4];
         exactCoefficients(query, exact);
         const CoplanarityCubic cubic = coplanarityCubic(query);
@@ -63,6 +64,8 @@ TYPED_TEST(CoplanarityCubicExact, ErrorBoundsEveryCoefficient) {
           EXPECT_FALSE(cubic.hasNoRoot()) << nameOf(kind) << " " << literal(pair, query);
         }
       }
+    }
+  }
   EXPECT_GT(rooted, 500);
 }
 

@@ -36,11 +36,12 @@ Query<Scalar> queryOf(const Moving<Scalar>& p0, const Moving<Scalar>& p1, const 
                       const Moving<Scalar>& p3) {
   Query<Scalar> query;
   const Moving<Scalar>* const points[4] = {&p0, &p1, &p2, &p3};
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < 4; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       query.start[i][axis] = points[i]->from[axis];
       query.end[i][axis] = points[i]->to[axis];
     }
+  }
   return query;
 }
 
@@ -337,32 +338,38 @@ std::string tell(const Way& way, const HandMade<Scalar>& made) {
 }
 
 TYPED_TEST(ContinuousCheckHandMade, NoWayMissesOne) {
-  for (const auto& made : handMade<TypeParam>())
-    for (const Way& way : everyWay())
+  for (const auto& made : handMade<TypeParam>()) {
+    for (const Way& way : everyWay()) {
       if (made.truth == Truth::meets) {
         EXPECT_TRUE(ask(way, made.pair, made.query)) << tell(way, made);
       }
+    }
+  }
 }
 
 TYPED_TEST(ContinuousCheckHandMade, NoWayTakesFarForNear) {
-  for (const auto& made : handMade<TypeParam>())
-    for (const Way& way : everyWay())
+  for (const auto& made : handMade<TypeParam>()) {
+    for (const Way& way : everyWay()) {
       if (made.truth == Truth::apart) {
         EXPECT_FALSE(ask(way, made.pair, made.query)) << tell(way, made);
       }
+    }
+  }
 }
 
 TYPED_TEST(ContinuousCheckHandMade, ExactTakesNoNearMissForAContact) {
   if (!ContinuousCheck::hasExact()) GTEST_SKIP() << "a build without Tier::exact";
-  for (const auto& made : handMade<TypeParam>())
-    for (const Way& way : everyWay())
+  for (const auto& made : handMade<TypeParam>()) {
+    for (const Way& way : everyWay()) {
       if (made.truth == Truth::justMisses && way.tier == Tier::exact) {
         EXPECT_FALSE(ask(way, made.pair, made.query)) << tell(way, made);
       }
+    }
+  }
 }
 
 TYPED_TEST(ContinuousCheckHandMade, NoTimeIsLate) {
-  for (const auto& made : handMade<TypeParam>())
+  for (const auto& made : handMade<TypeParam>()) {
     for (const Way& way : everyWay()) {
       if (made.truth != Truth::meets) continue;
       for (const double tolerance : {1e-12, 1e-6, 1e-2}) {
@@ -373,17 +380,19 @@ TYPED_TEST(ContinuousCheckHandMade, NoTimeIsLate) {
         EXPECT_LE(contact.time, made.time) << tell(way, made) << ", tolerance " << tolerance;
       }
     }
+  }
 }
 
 TYPED_TEST(ContinuousCheckHandMade, AMissHasNoTimeAndNoPlace) {
   int misses = 0;
-  for (const auto& made : handMade<TypeParam>())
+  for (const auto& made : handMade<TypeParam>()) {
     for (const Way& way : everyWay()) {
       const Contact contact = ask(way, made.pair, made.query);
       if (contact.found) continue;
       ++misses;
       EXPECT_EQ(contact.time, 0) << tell(way, made);
     }
+  }
   EXPECT_GT(misses, 0);
 }
 
@@ -412,7 +421,7 @@ TYPED_TEST(ContinuousCheckHandMade, TimeIsAsCloseAsTheToleranceWhereTheContactIs
   int asked = 0;
   for (const auto& made : handMade<TypeParam>()) {
     if (std::find(plain.begin(), plain.end(), made.name) == plain.end()) continue;
-    for (const Way& way : everyWay())
+    for (const Way& way : everyWay()) {
       for (const double tolerance : {1e-9, 1e-6, 1e-2}) {
         CheckSettings settings;
         settings.tolerance = tolerance;
@@ -421,6 +430,7 @@ TYPED_TEST(ContinuousCheckHandMade, TimeIsAsCloseAsTheToleranceWhereTheContactIs
             << tell(way, made) << ", tolerance " << tolerance;
         ++asked;
       }
+    }
   }
   EXPECT_GE(asked, 4 * 4 * 3);
 }
@@ -432,10 +442,10 @@ TYPED_TEST_SUITE(ContinuousCheckNotFinite, Scalars, );
 TYPED_TEST(ContinuousCheckNotFinite, IsAContactAtTheStartWhereverItStands) {
   using Limits = std::numeric_limits<TypeParam>;
   const auto cases = handMade<TypeParam>();
-  for (const TypeParam bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()})
+  for (const TypeParam bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
     for (const auto& made : cases) {
       if (std::string(made.name) != "stops short") continue;
-      for (const Way& way : everyWay())
+      for (const Way& way : everyWay()) {
         for (int place = 0; place < 24; ++place) {
           Query<TypeParam> query = made.query;
           (place < 12 ? query.start : query.end)[place % 12 / 3][place % 3] = bad;
@@ -444,21 +454,25 @@ TYPED_TEST(ContinuousCheckNotFinite, IsAContactAtTheStartWhereverItStands) {
           EXPECT_EQ(contact.time, 0) << way.name << ": " << literal(made.pair, query);
           EXPECT_TRUE(whereInRange(made.pair, contact)) << way.name << ": " << literal(made.pair, query);
         }
+      }
     }
+  }
 }
 
 TYPED_TEST(ContinuousCheckNotFinite, EverythingAtOnceToo) {
   Query<TypeParam> query;
-  for (auto* points : {&query.start, &query.end})
+  for (auto* points : {&query.start, &query.end}) {
     for (auto& point : *points)
       for (TypeParam& coordinate : point) coordinate = std::numeric_limits<TypeParam>::quiet_NaN();
-  for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge})
+  }
+  for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
     for (const Way& way : everyWay()) {
       const Contact contact = ask(way, pair, query);
       EXPECT_TRUE(contact.found) << way.name;
       EXPECT_EQ(contact.time, 0) << way.name;
       EXPECT_TRUE(whereInRange(pair, contact)) << way.name;
     }
+  }
 }
 
 }  // namespace

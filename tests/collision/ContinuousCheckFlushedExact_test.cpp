@@ -41,9 +41,10 @@ class FlushingDenormals {
 template <class Scalar>
 Query<Scalar> randomQuery(std::mt19937& random, const int (&exponents)[3]) {
   Query<Scalar> query;
-  for (auto* points : {&query.start, &query.end})
+  for (auto* points : {&query.start, &query.end}) {
     for (auto& point : *points)
       for (int k = 0; k < 3; ++k) point[k] = Scalar(std::ldexp(double(int(random() % 4096) - 2048), exponents[k] - 11));
+  }
   return query;
 }
 

@@ -33,11 +33,12 @@ using Transformation = std::function<Query<double>(const Query<double>&)>;
 
 Query<double> renamed(const Query<double>& query, const int (&order)[4]) {
   Query<double> result;
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < 4; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       result.start[i][axis] = query.start[order[i]][axis];
       result.end[i][axis] = query.end[order[i]][axis];
     }
+  }
   return result;
 }
 
@@ -89,7 +90,7 @@ struct Named {
 
 // No tier may lose a contact, and the exact one may not find any more either.
 void expectTheSameTruth(Pair pair, const std::vector<Named>& transformations) {
-  for (const Named& transformation : transformations)
+  for (const Named& transformation : transformations) {
     for (const Way& way : everyWay()) {
       if (way.batch) continue;
       const ContinuousCheck check(way.tier);
@@ -107,15 +108,17 @@ void expectTheSameTruth(Pair pair, const std::vector<Named>& transformations) {
       EXPECT_GT(asked, 300);
       EXPECT_EQ(wrong, 0) << transformation.name << ", " << way.name << ", first " << first;
     }
+  }
 }
 
 std::vector<Named> namings(Pair pair) {
-  if (pair == Pair::vertexFace)
+  if (pair == Pair::vertexFace) {
     return {{"points 2 and 3 swapped", renaming(0, 1, 3, 2)},
             {"points 1 and 2 swapped", renaming(0, 2, 1, 3)},
             {"points 1 and 3 swapped", renaming(0, 3, 2, 1)},
             {"face turned", renaming(0, 2, 3, 1)},
             {"face turned twice", renaming(0, 3, 1, 2)}};
+  }
   return {{"ends of the first swapped", renaming(1, 0, 2, 3)},
           {"ends of the second swapped", renaming(0, 1, 3, 2)},
           {"ends of both swapped", renaming(1, 0, 3, 2)},

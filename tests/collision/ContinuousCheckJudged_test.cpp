@@ -62,7 +62,7 @@ int judgeAll(Pair pair, const std::vector<Query<Scalar>>& queries, const CheckSe
 }
 
 TYPED_TEST(ContinuousCheckJudged, RealAndClothQueries) {
-  for (const char* collection : {"real", "cloth"})
+  for (const char* collection : {"real", "cloth"}) {
     for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       std::vector<Query<TypeParam>> queries;
       for (const KnownQuery& known : knownQueries(collection))
@@ -71,11 +71,12 @@ TYPED_TEST(ContinuousCheckJudged, RealAndClothQueries) {
       EXPECT_GT(judgeAll(pair, queries, {}, faults), 50) << collection;
       EXPECT_EQ(faults.text(), "") << collection;
     }
+  }
 }
 
 TYPED_TEST(ContinuousCheckJudged, GeneratedQueriesOfEveryClass) {
   QueryGenerator generator(61);
-  for (const QueryClass kind : kQueryClasses)
+  for (const QueryClass kind : kQueryClasses) {
     for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       std::vector<Query<TypeParam>> queries;
       for (int i = 0; i < 3000; ++i) queries.push_back(generator.next<TypeParam>(kind, pair));
@@ -83,6 +84,7 @@ TYPED_TEST(ContinuousCheckJudged, GeneratedQueriesOfEveryClass) {
       EXPECT_GT(judgeAll(pair, queries, {}, faults), 30) << nameOf(kind);
       EXPECT_EQ(faults.text(), "") << nameOf(kind);
     }
+  }
 }
 
 TYPED_TEST(ContinuousCheckJudged, GeneratedQueriesWithOtherSettings) {
@@ -92,7 +94,7 @@ TYPED_TEST(ContinuousCheckJudged, GeneratedQueriesWithOtherSettings) {
     settings.tolerance = tolerance;
     settings.maxIntervals = budget;
     QueryGenerator generator(62);
-    for (const QueryClass kind : kQueryClasses)
+    for (const QueryClass kind : kQueryClasses) {
       for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
         std::vector<Query<TypeParam>> queries;
         for (int i = 0; i < 300; ++i) queries.push_back(generator.next<TypeParam>(kind, pair));
@@ -100,6 +102,7 @@ TYPED_TEST(ContinuousCheckJudged, GeneratedQueriesWithOtherSettings) {
         judgeAll(pair, queries, settings, faults);
         EXPECT_EQ(faults.text(), "") << nameOf(kind) << ", tolerance " << tolerance << ", budget " << budget;
       }
+    }
   }
 }
 
@@ -108,7 +111,7 @@ TYPED_TEST(ContinuousCheckJudged, TimeIsWithinTheToleranceWhereThePlaneIsCrossed
   QueryGenerator generator(63);
   const CheckSettings settings;
   int plain = 0;
-  for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge})
+  for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
     for (int i = 0; i < 3000; ++i) {
       const Query<TypeParam> query = generator.next<TypeParam>(QueryClass::cloth, pair);
       const Verdict verdict = verdictOn(pair, query);
@@ -126,24 +129,27 @@ TYPED_TEST(ContinuousCheckJudged, TimeIsWithinTheToleranceWhereThePlaneIsCrossed
         EXPECT_GE(contact.time, verdict.earliest - 2 * settings.tolerance) << way.name << ": " << literal(pair, query);
       }
     }
+  }
   EXPECT_GT(plain, 500);
 }
 
 // The judge itself, where the answer is known.
 TEST(ContinuousCheckJudge, KnowsTheCollections) {
   int wrong = 0;
-  for (const char* collection : {"real", "cloth"})
-    for (const KnownQuery& known : knownQueries(collection))
+  for (const char* collection : {"real", "cloth"}) {
+    for (const KnownQuery& known : knownQueries(collection)) {
       if (exactContact(known.pair, known.points, 1e-6).found != known.meets) {
         ++wrong;
         ADD_FAILURE() << known.id << ": " << literal(known.pair, known.points);
       }
+    }
+  }
   EXPECT_EQ(wrong, 0);
 }
 
 TEST(ContinuousCheckJudge, KnowsWhatTouchesAtAQuarter) {
   QueryGenerator generator(64);
-  for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge})
+  for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
     for (int i = 0; i < 3000; ++i) {
       const int quarters = generator.integer(0, 4);
       const Query<double> query = generator.touching(pair, quarters);
@@ -151,13 +157,14 @@ TEST(ContinuousCheckJudge, KnowsWhatTouchesAtAQuarter) {
       EXPECT_TRUE(contact.found) << literal(pair, query);
       EXPECT_LE(contact.time, quarters / 4.0) << literal(pair, query);
     }
+  }
 }
 
 // The first time, and closer for a smaller tolerance.
 TEST(ContinuousCheckJudge, ItsTimesAreWithinItsTolerance) {
   QueryGenerator generator(65);
-  for (const QueryClass kind : kQueryClasses)
-    for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge})
+  for (const QueryClass kind : kQueryClasses) {
+    for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       for (int i = 0; i < 300; ++i) {
         const Query<double> query = generator.next<double>(kind, pair);
         const Contact closely = exactContact(pair, query, 1e-12);
@@ -168,6 +175,8 @@ TEST(ContinuousCheckJudge, ItsTimesAreWithinItsTolerance) {
           EXPECT_GE(contact.time, closely.time - tolerance) << literal(pair, query);
         }
       }
+    }
+  }
 }
 
 // Another judge, of 257 moments: what is apart by more than the speed covers between two of them never meets, and
@@ -175,8 +184,8 @@ TEST(ContinuousCheckJudge, ItsTimesAreWithinItsTolerance) {
 TEST(ContinuousCheckJudge, AgreesWithDistancesAtManyMoments) {
   QueryGenerator generator(66);
   int apart = 0;
-  for (const QueryClass kind : kQueryClasses)
-    for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge})
+  for (const QueryClass kind : kQueryClasses) {
+    for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       for (int i = 0; i < 100; ++i) {
         const Query<double> query = generator.next<double>(kind, pair);
         const int moments = 256;
@@ -192,6 +201,8 @@ TEST(ContinuousCheckJudge, AgreesWithDistancesAtManyMoments) {
           EXPECT_GE(contact.time, static_cast<double>(moment - 1) / moments - 1e-9) << literal(pair, query);
         }
       }
+    }
+  }
   EXPECT_GT(apart, 100);
 }
 

@@ -20,16 +20,18 @@ Counts countedIn(const std::string& collection, Pair pair, const Way& way, const
   const ContinuousCheck check(way.tier, settings);
   std::vector<KnownQuery> known;
   std::vector<Query<double>> queries;
-  for (const KnownQuery& query : knownQueries(collection))
+  for (const KnownQuery& query : knownQueries(collection)) {
     if (query.pair == pair) {
       known.push_back(query);
       queries.push_back(query.points);
     }
+  }
   std::vector<Contact> contacts(queries.size());
-  if (way.batch)
+  if (way.batch) {
     check(pair, queries.data(), queries.size(), contacts.data());
-  else
+  } else {
     for (std::size_t i = 0; i < queries.size(); ++i) contacts[i] = check(pair, queries[i]);
+  }
   Counts counts;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     ++counts.asked;
@@ -43,17 +45,18 @@ Counts countedIn(const std::string& collection, Pair pair, const Way& way, const
 class ContinuousCheckKnown : public testing::TestWithParam<Pair> {};
 
 TEST_P(ContinuousCheckKnown, NoWayMissesAContact) {
-  for (const char* collection : {"real", "cloth"})
+  for (const char* collection : {"real", "cloth"}) {
     for (const Way& way : everyWay()) {
       const Counts counts = countedIn(collection, GetParam(), way);
       EXPECT_GT(counts.asked, 1000);
       EXPECT_EQ(counts.missed, 0) << way.name << ", " << collection << ", first " << counts.firstMiss;
     }
+  }
 }
 
 TEST_P(ContinuousCheckKnown, NoBudgetToleranceOrThicknessMakesAMiss) {
-  for (const double tolerance : {1e-12, 1e-3, 1.0})
-    for (const int maxIntervals : {1, 2, 7, 100000})
+  for (const double tolerance : {1e-12, 1e-3, 1.0}) {
+    for (const int maxIntervals : {1, 2, 7, 100000}) {
       for (const double minSeparation : {0.0, 1e-9}) {
         CheckSettings settings;
         settings.tolerance = tolerance;
@@ -69,6 +72,8 @@ TEST_P(ContinuousCheckKnown, NoBudgetToleranceOrThicknessMakesAMiss) {
                                       << ", minSeparation " << minSeparation << ", first " << counts.firstMiss;
         }
       }
+    }
+  }
 }
 
 // What a prototype reached, with room for one query more (shared/ccd/README: 103 of 3,085 - 248 and 131 of 4,194 - 187
@@ -91,11 +96,12 @@ TEST_P(ContinuousCheckKnown, NoFalseAlarmOnCloth) {
 
 TEST_P(ContinuousCheckKnown, ExactHasNoFalseAlarm) {
   if (!ContinuousCheck::hasExact()) GTEST_SKIP() << "a build without Tier::exact";
-  for (const Way& way : everyWay())
+  for (const Way& way : everyWay()) {
     if (way.tier == Tier::exact) {
       const Counts counts = countedIn("real", GetParam(), way);
       EXPECT_EQ(counts.falseAlarms, 0) << way.name << ", first " << counts.firstAlarm;
     }
+  }
 }
 
 TEST_P(ContinuousCheckKnown, ASmallerToleranceHasFewerFalseAlarms) {

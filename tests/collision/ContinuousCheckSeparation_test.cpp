@@ -37,8 +37,8 @@ using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(ContinuousCheckSeparation, Scalars, );
 
 TYPED_TEST(ContinuousCheckSeparation, ParallelAtADistanceMeetsWhenAsNear) {
-  for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge})
-    for (const double distance : {0.125, 0.5, 3.0})
+  for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
+    for (const double distance : {0.125, 0.5, 3.0}) {
       for (const double sign : {1.0, -1.0}) {
         const Query<TypeParam> query = above<TypeParam>(pair, sign * distance, sign * distance, 0.5, 2);
         for (const Way& way : waysWithThickness()) {
@@ -51,11 +51,13 @@ TYPED_TEST(ContinuousCheckSeparation, ParallelAtADistanceMeetsWhenAsNear) {
           EXPECT_EQ(contact.time, 0) << way.name << literal(pair, query);
         }
       }
+    }
+  }
 }
 
 TYPED_TEST(ContinuousCheckSeparation, MeetsWhenTheGapIsUsedUp) {
-  for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge})
-    for (const double gap : {0.0, 0.125, 0.25, 0.75})
+  for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
+    for (const double gap : {0.0, 0.125, 0.25, 0.75}) {
       for (const double tolerance : {1e-9, 1e-6, 1e-2}) {
         const Query<TypeParam> query = above<TypeParam>(pair, 1, -1);
         const double time = (1 - gap) / 2;
@@ -69,6 +71,8 @@ TYPED_TEST(ContinuousCheckSeparation, MeetsWhenTheGapIsUsedUp) {
           EXPECT_LE(distanceOf(pair, query, contact.time, contact.where), reach) << way.name;
         }
       }
+    }
+  }
 }
 
 // Around a corner the thickness is a ball: a point that comes along the diagonal meets the vertex at its distance.
@@ -78,7 +82,7 @@ TYPED_TEST(ContinuousCheckSeparation, MeetsACornerAtItsDistance) {
                                   {{to, to, 0}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
   const Query<TypeParam> ends = {{{from, from, 0}, {2 * from, from, 0}, {0, 0, 0}, {4, 0, 0}},
                                  {{to, to, 0}, {2 * to, to, 0}, {0, 0, 0}, {4, 0, 0}}};
-  for (const Way& way : waysWithThickness())
+  for (const Way& way : waysWithThickness()) {
     for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       const Query<TypeParam>& points = pair == Pair::vertexFace ? query : ends;
       const Contact contact = ask(way, pair, points, thick(2));
@@ -86,22 +90,25 @@ TYPED_TEST(ContinuousCheckSeparation, MeetsACornerAtItsDistance) {
       EXPECT_LE(contact.time, (4 - std::sqrt(2.0)) / 3 * (1 + 1e-15)) << way.name;
       EXPECT_FALSE(ask(way, pair, points, thick(1.25))) << way.name << ": nearest at the end, by 1.41";
     }
+  }
 }
 
 TYPED_TEST(ContinuousCheckSeparation, KeepsWhatMeetsWithoutIt) {
   QueryGenerator generator(21);
-  for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge})
+  for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
     for (int i = 0; i < 400; ++i) {
       const int quarters = generator.integer(0, 4);
       const Query<TypeParam> query = converted<TypeParam>(generator.touching(pair, quarters));
-      for (const Way& way : waysWithThickness())
+      for (const Way& way : waysWithThickness()) {
         for (const double gap : {1e-300, 1e-12, 0.5, 1e6}) {
           const Contact contact = ask(way, pair, query, thick(gap));
           EXPECT_TRUE(contact.found) << way.name << ", gap " << gap << ": " << literal(pair, query);
           EXPECT_LE(contact.time, quarters / 4.0) << way.name << ", gap " << gap << ": " << literal(pair, query);
           EXPECT_TRUE(whereInRange(pair, contact)) << way.name << ", gap " << gap << ": " << literal(pair, query);
         }
+      }
     }
+  }
 }
 
 // Distances at 33 moments are upper bounds of the smallest one: a judge that needs no other check.
@@ -111,7 +118,7 @@ TYPED_TEST(ContinuousCheckSeparation, MissesNothingThatIsAsNearAtSomeMoment) {
   const int asked = 300;
   for (const QueryClass kind : kQueryClasses) {
     if (kind == QueryClass::mixedScale) continue;
-    for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge})
+    for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       for (int i = 0; i < asked; ++i) {
         const Query<TypeParam> query = generator.next<TypeParam>(kind, pair);
         const double gap = static_cast<double>(extent(query)) * generator.real(0, 0.3);
@@ -128,6 +135,7 @@ TYPED_TEST(ContinuousCheckSeparation, MissesNothingThatIsAsNearAtSomeMoment) {
           break;
         }
       }
+    }
   }
   EXPECT_GT(found, asked);
 }
@@ -135,8 +143,8 @@ TYPED_TEST(ContinuousCheckSeparation, MissesNothingThatIsAsNearAtSomeMoment) {
 TYPED_TEST(ContinuousCheckSeparation, MoreOfItLosesNothing) {
   QueryGenerator generator(23);
   int changed = 0;
-  for (const QueryClass kind : kQueryClasses)
-    for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge})
+  for (const QueryClass kind : kQueryClasses) {
+    for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       for (int i = 0; i < 60; ++i) {
         const Query<TypeParam> query = generator.next<TypeParam>(kind, pair);
         const double size = static_cast<double>(extent(query));
@@ -151,6 +159,8 @@ TYPED_TEST(ContinuousCheckSeparation, MoreOfItLosesNothing) {
           }
         }
       }
+    }
+  }
   EXPECT_GT(changed, 100);
 }
 

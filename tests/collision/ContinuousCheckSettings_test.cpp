@@ -84,8 +84,8 @@ TEST(ContinuousCheckSettings, ABuildWithoutExactSaysSo) {
 }
 
 TEST(ContinuousCheckSettings, TheEndsOfTheRangesAreTaken) {
-  for (const double tolerance : {1e-12, 1.0})
-    for (const int budget : {1, std::numeric_limits<int>::max()})
+  for (const double tolerance : {1e-12, 1.0}) {
+    for (const int budget : {1, std::numeric_limits<int>::max()}) {
       for (const Tier tier : everyTier()) {
         CheckSettings settings;
         settings.tolerance = tolerance;
@@ -93,6 +93,8 @@ TEST(ContinuousCheckSettings, TheEndsOfTheRangesAreTaken) {
         settings.minSeparation = tier == Tier::exact ? 0 : std::numeric_limits<double>::max();
         EXPECT_EQ(refusalOf(tier, settings), "");
       }
+    }
+  }
 }
 
 TEST(ContinuousCheckSettings, AreKept) {

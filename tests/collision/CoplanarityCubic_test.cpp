@@ -24,23 +24,25 @@ struct IntegerQuery {
 template <class Scalar>
 Query<Scalar> queryOf(const IntegerQuery& integers) {
   Query<Scalar> query;
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < 4; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       query.start[i][axis] =
           static_cast<Scalar>(std::ldexp(static_cast<double>(integers.start[i][axis]), integers.power));
       query.end[i][axis] = static_cast<Scalar>(std::ldexp(static_cast<double>(integers.end[i][axis]), integers.power));
     }
+  }
   return query;
 }
 
 // With the k-th of `ends` set, edge k is the one at the end of the motion.
 Integer determinant(const IntegerQuery& query, const bool (&ends)[3]) {
   Integer rows[3][3];
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 3; ++k) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto& points = ends[k] ? query.end : query.start;
       rows[k][axis] = static_cast<Integer>(points[k + 1][axis]) - points[0][axis];
     }
+  }
   return rows[0][0] * (rows[1][1] * rows[2][2] - rows[1][2] * rows[2][1]) +
          rows[0][1] * (rows[1][2] * rows[2][0] - rows[1][0] * rows[2][2]) +
          rows[0][2] * (rows[1][0] * rows[2][1] - rows[1][1] * rows[2][0]);
@@ -71,10 +73,12 @@ IntegerQuery integerQuery(QueryGenerator& generator, int bits, std::int64_t offs
   std::int64_t center[3];
   for (std::int64_t& coordinate : center)
     coordinate = static_cast<std::int64_t>(std::llround(generator.real(-1, 1) * static_cast<double>(offset)));
-  for (auto* points : {&query.start, &query.end})
-    for (auto& point : *points)
+  for (auto* points : {&query.start, &query.end}) {
+    for (auto& point : *points) {
       for (int axis = 0; axis < 3; ++axis)
         point[axis] = center[axis] + static_cast<std::int64_t>(std::llround(generator.real(-1, 1) * range));
+    }
+  }
   return query;
 }
 
@@ -114,24 +118,26 @@ const Range kFloatRanges[] = {{"lattice", 2, 0, 0},       {"22 bits", 22, 0, 0},
 
 TEST(CoplanarityCubic, ErrorBoundsEveryCoefficientInDouble) {
   QueryGenerator generator(41);
-  for (const Range& range : kDoubleRanges)
+  for (const Range& range : kDoubleRanges) {
     for (int i = 0; i < 3000; ++i) {
       IntegerQuery query = integerQuery(generator, range.bits, range.offset);
       query.power = range.power;
       SCOPED_TRACE(range.name);
       expectWithinError<double>(query);
     }
+  }
 }
 
 TEST(CoplanarityCubic, ErrorBoundsEveryCoefficientInFloat) {
   QueryGenerator generator(42);
-  for (const Range& range : kFloatRanges)
+  for (const Range& range : kFloatRanges) {
     for (int i = 0; i < 3000; ++i) {
       IntegerQuery query = integerQuery(generator, range.bits, range.offset);
       query.power = range.power;
       SCOPED_TRACE(range.name);
       expectWithinError<float>(query);
     }
+  }
 }
 
 // A bound that anything fits in would be no help: 15 digits of the products are left by a few dozen roundings.
@@ -263,7 +269,7 @@ TEST(CoplanarityCubic, ValueIsTheVolumeAtThatTime) {
 
 TEST(CoplanarityCubic, OfNumbersThatAreNotFiniteHasAnInfiniteError) {
   const double infinity = std::numeric_limits<double>::infinity();
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity})
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
     for (int place = 0; place < 24; ++place) {
       QueryGenerator generator(49);
       Query<double> query = generator.uniform();
@@ -273,37 +279,42 @@ TEST(CoplanarityCubic, OfNumbersThatAreNotFiniteHasAnInfiniteError) {
       EXPECT_FALSE(cubic.hasNoRoot()) << place;
       EXPECT_EQ(coplanarityCubic(converted<float>(query)).error, infinity) << place;
     }
+  }
 }
 
 TEST(CoplanarityCubic, OfProductsThatOverflowHasAnInfiniteError) {
   const double infinity = std::numeric_limits<double>::infinity();
   QueryGenerator generator(50);
-  for (int i = 0; i < 100; ++i)
+  for (int i = 0; i < 100; ++i) {
     for (const int power : {345, 500, 1023}) {
       Query<double> query = generator.uniform();
-      for (auto* points : {&query.start, &query.end})
+      for (auto* points : {&query.start, &query.end}) {
         for (auto& point : *points)
           for (double& coordinate : point) coordinate = std::ldexp(coordinate, power);
+      }
       const CoplanarityCubic cubic = coplanarityCubic(query);
       EXPECT_FALSE(cubic.hasNoRoot() && cubic.error < infinity) << literal(Pair::vertexFace, query);
       if (power > 345) {
         EXPECT_EQ(cubic.error, infinity) << literal(Pair::vertexFace, query);
       }
     }
+  }
 }
 
 // Products that underflow to 0 must not pass for exact.
 TEST(CoplanarityCubic, OfProductsThatUnderflowKeepsItsError) {
   QueryGenerator generator(51);
-  for (int i = 0; i < 2000; ++i)
+  for (int i = 0; i < 2000; ++i) {
     for (const int power : {-345, -358, -370, -500, -1000}) {
       const int quarters = generator.integer(0, 4);
       Query<double> query = generator.touching(i % 2 == 0 ? Pair::vertexFace : Pair::edgeEdge, quarters);
-      for (auto* points : {&query.start, &query.end})
+      for (auto* points : {&query.start, &query.end}) {
         for (auto& point : *points)
           for (double& coordinate : point) coordinate = std::ldexp(coordinate, power);
+      }
       EXPECT_FALSE(coplanarityCubic(query).hasNoRoot()) << literal(Pair::vertexFace, query);
     }
+  }
 }
 
 }  // namespace

@@ -55,19 +55,21 @@ using Points = std::array<std::array<double, 3>, 4>;
 
 Query moving(const Points& start, const Points& end) {
   Query query;
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < 4; ++i) {
     for (int k = 0; k < 3; ++k) {
       query.start[i][k] = start[i][k];
       query.end[i][k] = end[i][k];
     }
+  }
   return query;
 }
 
 template <class Change>
 Query changed(Query query, Change change) {
-  for (auto* points : {&query.start, &query.end})
+  for (auto* points : {&query.start, &query.end}) {
     for (auto& point : *points)
       for (double& coordinate : point) coordinate = change(coordinate);
+  }
   return query;
 }
 
@@ -83,11 +85,12 @@ Query reversed(Query query) {
 /// Point i of the result is point order[i].
 Query reordered(const Query& query, const std::array<int, 4>& order) {
   Query result;
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < 4; ++i) {
     for (int k = 0; k < 3; ++k) {
       result.start[i][k] = query.start[order[i]][k];
       result.end[i][k] = query.end[order[i]][k];
     }
+  }
   return result;
 }
 
@@ -98,9 +101,10 @@ class Lattice {
   int number(int largest) { return static_cast<int>(m_random() % static_cast<unsigned>(2 * largest + 1)) - largest; }
   Query query(int largest, int dimensions) {
     Query query = {};
-    for (auto* points : {&query.start, &query.end})
+    for (auto* points : {&query.start, &query.end}) {
       for (auto& point : *points)
         for (int k = 0; k < dimensions; ++k) point[k] = number(largest);
+    }
     return query;
   }
   /// Each coordinate by chance one double up or down (0: hardly more than its neighbours).

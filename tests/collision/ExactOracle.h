@@ -131,10 +131,12 @@ class Oracle {
  public:
   Oracle(wetcloth::collision::Pair pair, const wetcloth::collision::Query<double>& query) {
     int unit = 0;
-    for (const auto* points : {&query.start, &query.end})
-      for (const auto& point : *points)
+    for (const auto* points : {&query.start, &query.end}) {
+      for (const auto& point : *points) {
         for (const double coordinate : point)
           if (coordinate != 0) unit = std::min(unit, std::ilogb(coordinate) - 52);
+      }
+    }
     for (int i = 0; i < 4; ++i) {
       for (int k = 0; k < 3; ++k) {
         const Integer start = integer(query.start[i][k], unit);
@@ -182,9 +184,10 @@ class Oracle {
       }
     }
     std::vector<Root> contacts;
-    for (const Polynomial& candidate : candidates)
+    for (const Polynomial& candidate : candidates) {
       for (const Root& root : rootsInUnitInterval(candidate))
         if (meetAt(root)) contacts.push_back(root);
+    }
     return contacts;
   }
 

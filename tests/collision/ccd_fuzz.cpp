@@ -53,9 +53,10 @@ void judgeOneBatch(Run& run, Tally& tally, QueryGenerator& generator, QueryClass
     if (contacts[1][i].found && !verdict.meets) ++tally.falseAlarms;
     for (std::size_t tier = 0; tier < tiers.size(); ++tier) {
       const std::string fault = faultOf(tiers[tier], pair, queries[i], contacts[tier][i], verdict);
-      if (!fault.empty())
+      if (!fault.empty()) {
         report(run, tally, std::string(names[tier]) + " " + fault,
                std::string(nameOf(kind)) + " " + literal(pair, queries[i]));
+      }
     }
   }
 }
@@ -65,14 +66,15 @@ int fuzz(long long count, std::uint64_t seed) {
   QueryGenerator generator(seed);
   const auto began = std::chrono::steady_clock::now();
   double told = 0;
-  for (long long round = 0; run.done < count; ++round)
+  for (long long round = 0; run.done < count; ++round) {
     for (std::size_t kind = 0; kind < std::size(kQueryClasses) && run.done < count; ++kind) {
       const Pair pair = round % 2 == 0 ? Pair::vertexFace : Pair::edgeEdge;
       Tally& tally = run.tallies[round % 2][kind];
-      if (round / 2 % 3 == 0)
+      if (round / 2 % 3 == 0) {
         judgeOneBatch<float>(run, tally, generator, kQueryClasses[kind], pair);
-      else
+      } else {
         judgeOneBatch<double>(run, tally, generator, kQueryClasses[kind], pair);
+      }
       run.done += kBatch;
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
       if (seconds > told + 10) {
@@ -81,14 +83,16 @@ int fuzz(long long count, std::uint64_t seed) {
                   << " faults" << std::endl;
       }
     }
+  }
 
   std::printf("%-12s %-11s %10s %10s %14s %8s\n", "pair", "class", "queries", "contacts", "false alarms", "faults");
-  for (int pair = 0; pair < 2; ++pair)
+  for (int pair = 0; pair < 2; ++pair) {
     for (std::size_t kind = 0; kind < std::size(kQueryClasses); ++kind) {
       const Tally& tally = run.tallies[pair][kind];
       std::printf("%-12s %-11s %10lld %10lld %14lld %8lld\n", pair == 0 ? "vertexFace" : "edgeEdge",
                   nameOf(kQueryClasses[kind]), tally.asked, tally.contacts, tally.falseAlarms, tally.faults);
     }
+  }
   for (const auto& [kind, faults] : run.kinds) std::printf("%lld x %s\n", faults, kind.c_str());
   std::printf("%lld queries, seed %llu, %lld faults\n", run.done, static_cast<unsigned long long>(seed), run.faults);
   return run.faults == 0 ? 0 : 1;

@@ -32,12 +32,14 @@ inline KnownQuery readKnownQuery(const std::string& line) {
   query.pair = field == "vf" ? wetcloth::collision::Pair::vertexFace : wetcloth::collision::Pair::edgeEdge;
   std::getline(fields, field, ',');
   query.meets = field == "1";
-  for (auto* points : {&query.points.start, &query.points.end})
-    for (auto& point : *points)
+  for (auto* points : {&query.points.start, &query.points.end}) {
+    for (auto& point : *points) {
       for (double& coordinate : point) {
         if (!std::getline(fields, field, ',')) throw std::runtime_error("short line: " + line);
         coordinate = std::strtod(field.c_str(), nullptr);
       }
+    }
+  }
   return query;
 }
 

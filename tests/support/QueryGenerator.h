@@ -107,11 +107,12 @@ class QueryGenerator {
 
   Query<double> uniform() {
     Query<double> query;
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 4; ++i) {
       for (int axis = 0; axis < 3; ++axis) {
         query.start[i][axis] = real(-1, 1);
         query.end[i][axis] = real(-1, 1);
       }
+    }
     return query;
   }
 
@@ -131,12 +132,13 @@ class QueryGenerator {
       }
     }
     Query<double> query;
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 4; ++i) {
       for (int axis = 0; axis < 3; ++axis) {
         const double velocity = real(-motion, motion);
         query.start[i][axis] = at[i][axis] - time * velocity;
         query.end[i][axis] = at[i][axis] + (1 - time) * velocity;
       }
+    }
     return query;
   }
 
@@ -166,11 +168,12 @@ class QueryGenerator {
   Query<double> farOffset(Pair pair, bool single) {
     Query<double> query = integer(0, 1) == 0 ? aimed(pair, real(0, 1), 1) : touching(pair, integer(0, 4));
     const double size = std::ldexp(1.0, integer(-10, 0));
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 4; ++i) {
       for (int axis = 0; axis < 3; ++axis) {
         query.start[i][axis] *= size;
         query.end[i][axis] *= size;
       }
+    }
     for (int axis = 0; axis < 3; ++axis)
       translate(query, axis, std::round(real(-1, 1) * std::pow(10.0, single ? integer(1, 5) : integer(6, 9))));
     return query;
@@ -194,10 +197,11 @@ class QueryGenerator {
   Query<double> coplanar() {
     Query<double> query;
     const bool integers = integer(0, 1) == 0;
-    if (integers)
+    if (integers) {
       query = lattice();
-    else
+    } else {
       query = uniform();
+    }
     const int normal = integer(0, 2);
     const int u = (normal + 1) % 3;
     const int v = (normal + 2) % 3;
@@ -238,9 +242,10 @@ class QueryGenerator {
           for (int axis = 0; axis < 3; ++axis) query.end[i][axis] = query.start[i][axis];
         break;
       default:
-        for (int i = 1; i < 4; ++i)
+        for (int i = 1; i < 4; ++i) {
           for (int axis = 0; axis < 3; ++axis)
             query.end[i][axis] = query.start[i][axis] + (query.end[0][axis] - query.start[0][axis]);
+        }
     }
     return query;
   }

@@ -44,11 +44,12 @@ struct NameOfPair {
 template <class To, class From>
 Query<To> converted(const Query<From>& query) {
   Query<To> result;
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < 4; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       result.start[i][axis] = static_cast<To>(query.start[i][axis]);
       result.end[i][axis] = static_cast<To>(query.end[i][axis]);
     }
+  }
   return result;
 }
 
@@ -85,10 +86,12 @@ template <class Scalar>
 long double relativeSpeed(Pair pair, const Query<Scalar>& query) {
   const int split = pair == Pair::vertexFace ? 1 : 2;
   long double speed = 0;
-  for (int i = 0; i < split; ++i)
-    for (int j = split; j < 4; ++j)
+  for (int i = 0; i < split; ++i) {
+    for (int j = split; j < 4; ++j) {
       speed = std::max(
           speed, length((pointAt(query, i, 1) - pointAt(query, i, 0)) - (pointAt(query, j, 1) - pointAt(query, j, 0))));
+    }
+  }
   return speed;
 }
 
@@ -96,9 +99,10 @@ long double relativeSpeed(Pair pair, const Query<Scalar>& query) {
 template <class Scalar>
 long double magnitude(const Query<Scalar>& query) {
   long double largest = 0;
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < 4; ++i) {
     for (const long double time : {0.0L, 1.0L})
       for (const long double coordinate : pointAt(query, i, time)) largest = std::max(largest, std::abs(coordinate));
+  }
   return largest;
 }
 
@@ -106,10 +110,12 @@ long double magnitude(const Query<Scalar>& query) {
 template <class Scalar>
 long double extent(const Query<Scalar>& query) {
   long double largest = 0;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < i; ++j)
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < i; ++j) {
       for (const long double time : {0.0L, 1.0L})
         largest = std::max(largest, length(pointAt(query, i, time) - pointAt(query, j, time)));
+    }
+  }
   return largest;
 }
 
