@@ -89,6 +89,10 @@ void expectNothingIsMissed(const int (&exponents)[3]) {
   EXPECT_GT(contacts, 100);
 }
 
+// Tests that need Tier::exact are skipped where this says no. This file is compiled only where Boost was found, so
+// there none of them may be skipped.
+TEST(ContinuousCheckFlushed, ABuildWithBoostHasTheTierExact) { ASSERT_TRUE(ContinuousCheck::hasExact()); }
+
 TEST(ContinuousCheckFlushed, DoublesOfDenormalDifferences) { expectNothingIsMissed<double>({-1019, -1019, -1019}); }
 TEST(ContinuousCheckFlushed, DoublesOfWhichOneAxisIsDenormal) { expectNothingIsMissed<double>({-1020, -500, -500}); }
 TEST(ContinuousCheckFlushed, DoublesWhereTheSearchTakesOver) { expectNothingIsMissed<double>({-1020, -299, -299}); }
