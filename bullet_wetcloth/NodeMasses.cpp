@@ -4,6 +4,7 @@
 #include <BulletSoftBody/btDeformableBodySolver.h>
 #include <BulletSoftBody/btPreconditioner.h>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace wetcloth {
@@ -51,10 +52,12 @@ bool NodeMasses::writeNodes(Water& water) {
     if (node.m_im == 0) continue;
     const double inverseMass = 1 / water.totalMass(i);
     const Water::Arrival& arrival = water.arrival(i);
-    if (arrival.mass > 0) {
-      // Arrivals meet the mass that the node had before anything left it.
-      const double inverse = waterLeft ? 1 / (1 / static_cast<double>(node.m_im) + arrival.mass) : inverseMass;
-      mixMomentum(node, arrival, inverse);
+    const double arrived = arrival.mass + arrival.runOff;
+    if (arrived > 0) {
+      // Arrivals meet the mass that the node had before anything dripped or dried off it.
+      const bool isSum = !waterLeft && arrival.runOff == 0;
+      const double met = 1 / static_cast<double>(node.m_im) + arrival.shifted;
+      mixMomentum(node, arrival, isSum ? inverseMass : 1 / (std::max(met, 0.0) + arrived));
     }
     const btScalar rounded = static_cast<btScalar>(inverseMass);
     changed = changed || rounded != node.m_im;
@@ -68,7 +71,7 @@ bool NodeMasses::writeNodes(Water& water) {
 void NodeMasses::mixMomentum(btSoftBody::Node& node, const Water::Arrival& arrival, double inverseMass) const {
   const auto change = [&](int axis) {
     const double velocity = static_cast<double>(node.m_v[axis]);
-    return static_cast<btScalar>((arrival.momentum[axis] - arrival.mass * velocity) * inverseMass);
+    return static_cast<btScalar>((arrival.momentum[axis] - (arrival.mass + arrival.runOff) * velocity) * inverseMass);
   };
   const btVector3 deltaVelocity(change(0), change(1), change(2));
   node.m_v += deltaVelocity;

@@ -2,6 +2,8 @@
 
 #include "bullet_wetcloth/Precision.h"
 
+#include <LinearMath/btVector3.h>
+
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -37,6 +39,12 @@ inline void requireFraction(const std::string& field, double value) {
 
 inline void requireFinite(const std::string& field, double value) {
   if (!std::isfinite(value)) rejectValue(field, value, "finite");
+}
+
+/// Names the axis: "field.x".
+inline void requireFinite(const std::string& field, const btVector3& value) {
+  static const char* const axes[] = {".x", ".y", ".z"};
+  for (int axis = 0; axis < 3; ++axis) requireFinite(field + axes[axis], static_cast<double>(value[axis]));
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -1,6 +1,7 @@
 #include "bullet_wetcloth/Water.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace wetcloth {
@@ -25,7 +26,25 @@ Ledger Water::ledger() const {
   ledger.dripped = m_dripped.value();
   ledger.evaporated = m_evaporated.value();
   ledger.held = sum(m_held);
+  ledger.runOff = m_runOff.value();
   return ledger;
+}
+
+double Water::moved() const {
+  double absorbed = m_absorbed.value();
+  for (const double part : m_newlyAbsorbed) absorbed += part;
+  return absorbed + m_dripped.value() + m_evaporated.value() + m_movedWithin;
+}
+
+void Water::runOff(std::size_t node, double mass, double vx, double vy, double vz) {
+  if (!(mass > 0)) return;
+  Arrival& arrival = m_arrivals[node];
+  arrival.runOff += mass;
+  arrival.momentum[0] += mass * vx;
+  arrival.momentum[1] += mass * vy;
+  arrival.momentum[2] += mass * vz;
+  m_runOff.add(mass);
+  m_movedSinceCommit = true;  // no revision: the water is as it was
 }
 
 void Water::move(std::size_t from, std::size_t to, double mass, double vx, double vy, double vz) {
@@ -33,11 +52,27 @@ void Water::move(std::size_t from, std::size_t to, double mass, double vx, doubl
   if (!(moved > 0) || from == to) return;
   m_held[from] -= moved;
   m_held[to] += moved;
+  m_arrivals[from].shifted -= moved;
   Arrival& arrival = m_arrivals[to];
   arrival.mass += moved;
   arrival.momentum[0] += moved * vx;
   arrival.momentum[1] += moved * vy;
   arrival.momentum[2] += moved * vz;
+  m_movedWithin += moved;
+  m_leftSinceCommit = true;
+  markMoved();
+}
+
+void Water::redistribute(const std::vector<double>& held) {
+  CompensatedSum rounding;
+  for (std::size_t i = 0; i < m_held.size(); ++i) {
+    const double change = held[i] - m_held[i];
+    rounding.add(change);
+    m_held[i] = held[i];
+    m_movedWithin += change > 0 ? change : 0;
+    m_arrivals[i].shifted += change;
+  }
+  m_initial.add(rounding.value());
   m_leftSinceCommit = true;
   markMoved();
 }
@@ -66,7 +101,8 @@ void Water::reset(std::vector<double> dryMass, double capacityRatio) {
   m_held.assign(m_dryMass.size(), 0);
   m_arrivals.assign(m_dryMass.size(), Arrival());
   m_capacityRatio = capacityRatio;
-  m_initial = m_absorbed = m_dripped = m_evaporated = CompensatedSum();
+  m_totalDryMass = sum(m_dryMass);
+  m_initial = m_absorbed = m_dripped = m_evaporated = m_runOff = CompensatedSum();
   m_newlyAbsorbed.fill(0);
   markMoved();
   m_movedSinceCommit = m_leftSinceCommit = false;
@@ -76,6 +112,7 @@ void Water::setHeld(const std::vector<double>& held) {
   for (std::size_t i = 0; i < held.size(); ++i) {
     m_initial.add(held[i]);
     m_initial.add(-m_held[i]);
+    m_movedWithin += std::fabs(held[i] - m_held[i]);
     m_held[i] = held[i];
   }
   markMoved();
@@ -86,6 +123,7 @@ void Water::replaceNodes(std::vector<double> dryMass, std::vector<double> held) 
   m_initial.add(sum(held));
   m_initial.add(-sum(m_held));
   m_dryMass = std::move(dryMass);
+  m_totalDryMass = sum(m_dryMass);
   m_held = std::move(held);
   m_arrivals.assign(m_held.size(), Arrival());
   markMoved();

@@ -14,9 +14,10 @@ inline namespace WETCLOTH_PRECISION {
 struct Ledger {
   double initial = 0;     ///< held when the cloth was added, plus what was set by hand since (may be negative)
   double absorbed = 0;    ///< brought by the sources
-  double dripped = 0;     ///< lost as liquid
+  double dripped = 0;     ///< lost as liquid: drops, and what another cloth took
   double evaporated = 0;  ///< lost as vapour
   double held = 0;        ///< in the cloth now
+  double runOff = 0;      ///< struck the cloth and was not taken in; never part of the balance
 
   /// initial + absorbed - dripped - evaporated - held: zero to rounding.
   double imbalance() const { return initial + absorbed - dripped - evaporated - held; }
@@ -44,6 +45,14 @@ class CompensatedSum {
 /// which momentum is remembered, so that the commit can update velocities and masses once per step.
 class Water {
  public:
+  /// What came to a node since the last commit.
+  struct Arrival {
+    double mass = 0;                 ///< that stays [kg]
+    double momentum[3] = {0, 0, 0};  ///< of mass and runOff [kg m/s]
+    double runOff = 0;               ///< that brought momentum, and left [kg]
+    double shifted = 0;              ///< went to other nodes (< 0), or came from them and is no part of mass [kg]
+  };
+
   std::size_t size() const { return m_held.size(); }
 
   double held(std::size_t node) const { return m_held[node]; }
@@ -60,6 +69,10 @@ class Water {
   /// Grows with every change of the water, by an effect or by hand: an effect that found nothing to do may idle
   /// until it changes.
   unsigned long long revision() const { return m_revision; }
+  /// All water that was ever moved, in, out, within or by hand [kg]: never falls.
+  double moved() const;
+  /// Capacity of all nodes [kg].
+  double totalCapacity() const { return m_capacityRatio * m_totalDryMass; }
 
   // --- for effects, inside a step ---------------------------------------------------------------------------
 
@@ -76,19 +89,22 @@ class Water {
     arrival.momentum[2] += arrived * vz;
     markMoved();
   }
+  /// Water that strikes a node with velocity (vx, vy, vz) [m/s] and runs off: it leaves its momentum, as in an
+  /// inelastic impact, and goes away with the node's velocity. `mass` must be finite and >= 0.
+  void runOff(std::size_t node, double mass, double vx, double vy, double vz);
   /// Liquid that leaves at the node's own velocity; at most what is held. Returns what left.
   double drip(std::size_t node, double mass) { return take(node, mass, m_dripped); }
   /// Vapour that leaves at the node's own velocity; at most what is held. Returns what left.
   double evaporate(std::size_t node, double mass) { return take(node, mass, m_evaporated); }
   /// Water that moves inside the cloth, with the velocity of the node it leaves.
   void move(std::size_t from, std::size_t to, double mass, double vx, double vy, double vz);
+  /// Water that moves between many nodes at once: node i ends with `held[i]` [kg], finite and >= 0. The sum must be
+  /// what is held now, to rounding, which is booked under `initial`. The momentum that moved with it is the caller's
+  /// to see to, with WetCloth::push().
+  void redistribute(const std::vector<double>& held);
 
   // --- for the commit ---------------------------------------------------------------------------------------
 
-  struct Arrival {
-    double mass = 0;
-    double momentum[3] = {0, 0, 0};
-  };
   bool movedSinceCommit() const { return m_movedSinceCommit; }
   /// Whether water left a node, or moved between nodes, since the last commit.
   bool leftSinceCommit() const { return m_leftSinceCommit; }
@@ -102,7 +118,10 @@ class Water {
   /// Replaces the water by hand; booked under `initial`. Each value finite and >= 0.
   void setHeld(const std::vector<double>& held);
   /// New dry mass of one node, its water unchanged.
-  void setDryMass(std::size_t node, double mass) { m_dryMass[node] = mass; }
+  void setDryMass(std::size_t node, double mass) {
+    m_totalDryMass += mass - m_dryMass[node];
+    m_dryMass[node] = mass;
+  }
   /// The body's nodes changed: new arrays whose total water must equal the old one's to rounding.
   void replaceNodes(std::vector<double> dryMass, std::vector<double> held);
 
@@ -120,11 +139,14 @@ class Water {
   std::vector<double> m_dryMass;
   std::vector<Arrival> m_arrivals;
   double m_capacityRatio = 0;
+  double m_totalDryMass = 0;
+  double m_movedWithin = 0;  // between nodes, and by hand
   CompensatedSum m_initial;
   CompensatedSum m_absorbed;                        // up to the last commit
   std::array<double, kLanes> m_newlyAbsorbed = {};  // since then
   CompensatedSum m_dripped;
   CompensatedSum m_evaporated;
+  CompensatedSum m_runOff;
   unsigned long long m_revision = 0;
   bool m_movedSinceCommit = false;
   bool m_leftSinceCommit = false;

@@ -79,6 +79,11 @@ Colour WetCloth::colour(int node) const {
 
 double WetCloth::roughness(int node) const { return wetRoughness(m_fabric.dryRoughness, saturation(node)); }
 
+const RestMesh& WetCloth::restMesh() {
+  if (!m_restMesh) m_restMesh.emplace(m_body);
+  return *m_restMesh;
+}
+
 void WetCloth::log(const std::string& message) const { m_world.log(message); }
 
 // Calls `action` on the effect at `index` and moves on to the next. Effects of ours do not throw here, but a user's
@@ -148,6 +153,7 @@ bool WetCloth::bodyChanged() const {
 }
 
 void WetCloth::rememberBody() {
+  m_restMesh.reset();
   m_nodeCount = m_body.m_nodes.size();
   m_linkCount = m_body.m_links.size();
   m_faceCount = m_body.m_faces.size();

@@ -4,11 +4,13 @@
 #include "bullet_wetcloth/Fabric.h"
 #include "bullet_wetcloth/NodeMasses.h"
 #include "bullet_wetcloth/Water.h"
+#include "bullet_wetcloth/mesh/RestMesh.h"
 #include "bullet_wetcloth/shading/Colour.h"
 
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,6 +89,9 @@ class WetCloth {
   Water& water() { return m_water; }
   const Water& water() const { return m_water; }
   NodeMasses& masses() { return m_masses; }
+  /// The cloth's triangles at rest. Built when first asked for, and again after the body's nodes, links or faces
+  /// changed in number: ask in attach(), which is called then.
+  const RestMesh& restMesh();
 
   /// Adds to a free node's velocity, in the way that each of Bullet's worlds takes notice of.
   /// Pinned nodes and values that are not finite are ignored.
@@ -124,6 +129,7 @@ class WetCloth {
   bool m_deformable;
   Water m_water;
   NodeMasses m_masses;
+  std::optional<RestMesh> m_restMesh;
   std::vector<std::unique_ptr<Effect>> m_effects;
   double m_massAsleep = 0;  // when Bullet let the body sleep, 0 while it is awake [kg]
   bool m_wasPresent = true;

@@ -32,11 +32,7 @@ Absorption::Parameters Absorption::Parameters::paper() {
 Absorption::Absorption(Parameters parameters) : m_parameters(std::move(parameters)) {
   m_parameters.exposure.requireValid("Absorption.exposure");
   requirePositive("Absorption.rampDuration", m_parameters.rampDuration);
-  static const char* const axes[] = {"x", "y", "z"};
-  for (int axis = 0; axis < 3; ++axis) {
-    requireFinite(std::string("Absorption.waterVelocity.") + axes[axis],
-                  static_cast<double>(m_parameters.waterVelocity[axis]));
-  }
+  requireFinite("Absorption.waterVelocity", m_parameters.waterVelocity);
 }
 
 void Absorption::setExposure(Exposure exposure) {

@@ -17,12 +17,7 @@ btVector3 WindField::at(const btVector3& position, double time) const {
   return isFinite(value) ? value : btVector3(0, 0, 0);
 }
 
-void WindField::requireValid(const char* field) const {
-  static const char* const axes[] = {".x", ".y", ".z"};
-  for (int axis = 0; axis < 3; ++axis) {
-    requireFinite(std::string(field) + axes[axis], static_cast<double>(m_constant[axis]));
-  }
-}
+void WindField::requireValid(const char* field) const { requireFinite(field, m_constant); }
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

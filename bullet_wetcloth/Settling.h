@@ -1,0 +1,48 @@
+#pragma once
+
+#include "bullet_wetcloth/Effect.h"
+#include "bullet_wetcloth/Precision.h"
+
+#include <LinearMath/btVector3.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Tells an effect that moves water when it may idle, and when it must go on: a member of the effect.
+///
+/// It settles once it has moved no more than 1e-9 of the cloth's capacity a step for 64 steps on end. It goes on when
+/// more than 1e-7 of the capacity has been moved since, by anyone or by hand; when the cloth's shape or gravity has
+/// changed, if it depends on them; and after restart().
+class Settling {
+ public:
+  enum class DependsOn { water, waterAndShape };
+  explicit Settling(DependsOn inputs = DependsOn::water) : m_inputs(inputs) {}
+
+  /// A parameter or the body changed.
+  void restart();
+
+  /// Whether the effect may leave this step out. Looks at a 32nd of the nodes at most.
+  bool isSettled(const WetCloth& cloth, const Step& step);
+
+  /// After a step that was not left out, with what it moved [kg]. May allocate in the first call after restart().
+  void note(const WetCloth& cloth, const Step& step, double moved);
+
+ private:
+  bool shapeChanged(const WetCloth& cloth, const Step& step);
+  void rememberShape(const WetCloth& cloth, const Step& step);
+
+  DependsOn m_inputs;
+  int m_quietSteps = 0;
+  bool m_isSettled = false;
+  double m_movedBefore = 0;        // Water::moved() when it settled
+  std::vector<btVector3> m_shape;  // when it settled
+  btVector3 m_gravity = btVector3(0, 0, 0);
+  btScalar m_tolerance2 = 0;   // of a node's place, squared [m^2]
+  std::size_t m_nextNode = 0;  // to look at
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,51 @@
+#include "bullet_wetcloth/effects/WaterSurface.h"
+
+#include "bullet_wetcloth/Require.h"
+
+#include <string>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+constexpr double kWaterDensity = 1000;
+
+}  // namespace
+
+void requireValid(const char* prefix, const WaterSurface& surface) {
+  const std::string name = prefix;
+  requireFinite(name + ".normal", surface.normal);
+  if (!(surface.normal.length2() > 0)) reject(name + ".normal", "must not be of length 0");
+  requireFinite(name + ".offset", surface.offset);
+  requirePositive(name + ".density", surface.density);
+  requireFinite(name + ".velocity", surface.velocity);
+}
+
+WaterSurface normalized(const WaterSurface& surface) {
+  WaterSurface unit = surface;
+  const btScalar length = surface.normal.length();
+  unit.normal = surface.normal / length;
+  unit.offset = surface.offset / static_cast<double>(length);
+  return unit;
+}
+
+std::optional<WaterSurface> surfaceFor(const std::optional<WaterSurface>& own, const btSoftBody& body) {
+  if (own) return normalized(*own);
+  const btSoftBodyWorldInfo& info = *body.m_worldInfo;
+  if (!(info.water_normal.length2() > 0)) return std::nullopt;
+  WaterSurface surface;
+  surface.normal = info.water_normal;
+  surface.offset = static_cast<double>(info.water_offset);
+  surface.density = info.water_density > 0 ? static_cast<double>(info.water_density) : kWaterDensity;
+  return normalized(surface);
+}
+
+void requireSurface(const char* prefix, const std::optional<WaterSurface>& own, const btSoftBody& body) {
+  if (!surfaceFor(own, body)) {
+    reject(prefix, "is not set, and btSoftBodyWorldInfo::water_normal is of length 0: there is no water");
+  }
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,101 @@
+#include "bullet_wetcloth/mesh/RestMesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+int indexOf(const btSoftBody& body, const btSoftBody::Node* node) { return static_cast<int>(node - &body.m_nodes[0]); }
+
+std::pair<int, int> ends(const RestMesh::Edge& edge) { return {edge.a, edge.b}; }
+
+bool isBefore(const RestMesh::Edge& edge, const RestMesh::Edge& other) { return ends(edge) < ends(other); }
+
+// Heron's formula in Kahan's order, which keeps needles accurate (Kahan 2014, "Miscalculating area and angles of a
+// needle-like triangle").
+double triangleArea(double a, double b, double c) {
+  if (a < b) std::swap(a, b);
+  if (b < c) std::swap(b, c);
+  if (a < b) std::swap(a, b);
+  const double product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+  return product > 0 ? std::sqrt(product) / 4 : 0;
+}
+
+}  // namespace
+
+RestMesh::RestMesh(const btSoftBody& body) : m_nodeAreas(static_cast<std::size_t>(body.m_nodes.size()), 0) {
+  findEdges(body);
+  takeLinkLengths(body);
+  findTriangles(body);
+  findNeighbours();
+}
+
+void RestMesh::findEdges(const btSoftBody& body) {
+  m_edges.reserve(3 * static_cast<std::size_t>(body.m_faces.size()));
+  for (int f = 0; f < body.m_faces.size(); ++f) {
+    btSoftBody::Node* const* corners = body.m_faces[f].m_n;
+    for (int k = 0; k < 3; ++k) {
+      const btSoftBody::Node* from = corners[k];
+      const btSoftBody::Node* to = corners[(k + 1) % 3];
+      if (from == to) continue;
+      const std::pair<int, int> sorted = std::minmax({indexOf(body, from), indexOf(body, to)});
+      m_edges.push_back({sorted.first, sorted.second, static_cast<double>((to->m_x - from->m_x).length())});
+    }
+  }
+  std::sort(m_edges.begin(), m_edges.end(), isBefore);
+  const auto isSame = [](const Edge& edge, const Edge& other) { return ends(edge) == ends(other); };
+  m_edges.erase(std::unique(m_edges.begin(), m_edges.end(), isSame), m_edges.end());
+  m_edges.shrink_to_fit();
+}
+
+void RestMesh::takeLinkLengths(const btSoftBody& body) {
+  for (int k = 0; k < body.m_links.size(); ++k) {
+    const btSoftBody::Link& link = body.m_links[k];
+    const int edge = edgeBetween(indexOf(body, link.m_n[0]), indexOf(body, link.m_n[1]));
+    const double length = static_cast<double>(link.m_rl);
+    if (edge >= 0 && length > 0 && std::isfinite(length)) m_edges[static_cast<std::size_t>(edge)].length = length;
+  }
+}
+
+void RestMesh::findTriangles(const btSoftBody& body) {
+  m_triangles.resize(static_cast<std::size_t>(body.m_faces.size()));
+  for (std::size_t f = 0; f < m_triangles.size(); ++f) {
+    Triangle& triangle = m_triangles[f];
+    for (std::size_t k = 0; k < 3; ++k) triangle.nodes[k] = indexOf(body, body.m_faces[static_cast<int>(f)].m_n[k]);
+    std::array<double, 3> lengths = {0, 0, 0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangle.edges[k] = edgeBetween(triangle.nodes[(k + 1) % 3], triangle.nodes[(k + 2) % 3]);
+      if (triangle.edges[k] >= 0) lengths[k] = m_edges[static_cast<std::size_t>(triangle.edges[k])].length;
+    }
+    triangle.area = triangleArea(lengths[0], lengths[1], lengths[2]);
+    for (const int node : triangle.nodes) m_nodeAreas[static_cast<std::size_t>(node)] += triangle.area / 3;
+  }
+}
+
+void RestMesh::findNeighbours() {
+  m_firstNeighbour.assign(nodeCount() + 1, 0);
+  for (const Edge& edge : m_edges) {
+    ++m_firstNeighbour[static_cast<std::size_t>(edge.a) + 1];
+    ++m_firstNeighbour[static_cast<std::size_t>(edge.b) + 1];
+  }
+  for (std::size_t i = 0; i < nodeCount(); ++i) m_firstNeighbour[i + 1] += m_firstNeighbour[i];
+  m_neighbours.resize(2 * m_edges.size());
+  std::vector<std::size_t> next(m_firstNeighbour.begin(), m_firstNeighbour.end() - 1);
+  for (const Edge& edge : m_edges) {
+    m_neighbours[next[static_cast<std::size_t>(edge.a)]++] = edge.b;
+    m_neighbours[next[static_cast<std::size_t>(edge.b)]++] = edge.a;
+  }
+}
+
+int RestMesh::edgeBetween(int a, int b) const {
+  const Edge wanted = {std::min(a, b), std::max(a, b), 0};
+  const auto found = std::lower_bound(m_edges.begin(), m_edges.end(), wanted, isBefore);
+  return found != m_edges.end() && ends(*found) == ends(wanted) ? static_cast<int>(found - m_edges.begin()) : -1;
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
