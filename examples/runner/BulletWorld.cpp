@@ -98,13 +98,14 @@ void BulletWorld::addForce(btSoftBody& body, std::unique_ptr<btDeformableLagrang
   m_forces.push_back(std::move(force));
 }
 
-void BulletWorld::addStatic(std::unique_ptr<btCollisionShape> shape, const btTransform& place) {
+const btCollisionObject& BulletWorld::addStatic(std::unique_ptr<btCollisionShape> shape, const btTransform& place) {
   auto body = std::make_unique<btRigidBody>(0, nullptr, shape.get(), btVector3(0, 0, 0));
   body->setWorldTransform(place);
   body->setFriction(1);  // the cloth's own friction decides
   m_world->addRigidBody(body.get());
   m_shapes.push_back(std::move(shape));
   m_rigidBodies.push_back(std::move(body));
+  return *m_rigidBodies.back();
 }
 
 }  // namespace runner

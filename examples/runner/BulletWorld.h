@@ -35,7 +35,7 @@ class BulletWorld {
   /// Takes the body into the world. In the deformable world it gets gravity, and springs if there are any.
   btSoftBody& add(std::unique_ptr<btSoftBody> body, const DeformableSprings* springs = nullptr);
   /// A body that nothing moves.
-  void addStatic(std::unique_ptr<btCollisionShape> shape, const btTransform& place);
+  const btCollisionObject& addStatic(std::unique_ptr<btCollisionShape> shape, const btTransform& place);
   void substep(btScalar dt) { m_world->stepSimulation(dt, 0); }
 
  private:

@@ -29,7 +29,7 @@ Scene costScene() {
   cloth.fabric = wetcloth::Fabric::cotton();
   patch.arealDensity = cloth.fabric.arealDensity;
   const Json effects = everyEffect();
-  readEffects(JsonCursor(effects, scene.file, "/cloths/0/effects"), patch.nodeCount(), cloth);
+  cloth.effects = readEffects(JsonCursor(effects, scene.file, "/cloths/0/effects"), patch.nodeCount());
   cloth.shape = patch;
   scene.cloths.push_back(cloth);
   return scene;

@@ -3,9 +3,12 @@
 #include "JsonCursor.h"
 #include "Scene.h"
 
+#include <vector>
+
 namespace runner {
 
-/// Reads a cloth's "effects": only the named ones are set. `nodes` is the cloth's number of nodes.
-void readEffects(JsonCursor cursor, int nodes, ClothScene& cloth);
+/// Reads a cloth's "effects": only the named ones are there, in the order in which they are to be added. `nodes` is the
+/// cloth's number of nodes.
+std::vector<EffectScene> readEffects(JsonCursor cursor, int nodes);
 
 }  // namespace runner

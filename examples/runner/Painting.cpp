@@ -52,8 +52,8 @@ std::string pathData(const std::vector<PicturePoint>& corners) {
   return data + "Z";
 }
 
-void Painting::add(const std::vector<btVector3>& corners, const wetcloth::Colour& colour, double bias) {
-  Polygon polygon{bias, {}, hexColour(colour)};
+void Painting::add(const std::vector<btVector3>& corners, const wetcloth::Colour& colour, double bias, double opacity) {
+  Polygon polygon{bias, {}, hexColour(colour), opacity};
   for (const btVector3& corner : corners) {
     polygon.corners.push_back(m_camera.project(corner));
     if (polygon.corners.back().depth <= 0) return;  // behind the camera
@@ -62,14 +62,22 @@ void Painting::add(const std::vector<btVector3>& corners, const wetcloth::Colour
   m_polygons.push_back(std::move(polygon));
 }
 
+// A stroke of the polygon's own colour hides the seams that smoothed edges would show; where something shows through,
+// it would make them darker instead.
+std::string Painting::strokeOf(const Polygon& polygon) {
+  if (polygon.opacity >= 1) return " stroke=\"" + polygon.colour + "\"";
+  char text[64];
+  std::snprintf(text, sizeof text, " fill-opacity=\"%.2f\" shape-rendering=\"crispEdges\"", polygon.opacity);
+  return text;
+}
+
 std::string Painting::svg() {
   std::stable_sort(m_polygons.begin(), m_polygons.end(),
                    [](const Polygon& a, const Polygon& b) { return a.depth > b.depth; });
-  // A stroke of the polygon's own colour hides the seams that smoothed edges would show.
   std::string text = "<g stroke-width=\".8\" stroke-linejoin=\"round\">\n";
   for (const Polygon& polygon : m_polygons) {
-    text += "<path d=\"" + pathData(polygon.corners) + "\" fill=\"" + polygon.colour + "\" stroke=\"" + polygon.colour +
-            "\"/>\n";
+    text +=
+        "<path d=\"" + pathData(polygon.corners) + "\" fill=\"" + polygon.colour + "\"" + strokeOf(polygon) + "/>\n";
   }
   return text + "</g>\n";
 }

@@ -28,7 +28,8 @@ class Painting {
   explicit Painting(const Camera& camera) : m_camera(camera) {}
 
   /// @param bias moves the polygon away from the camera in the order of painting only [m]
-  void add(const std::vector<btVector3>& corners, const wetcloth::Colour& colour, double bias = 0);
+  /// @param opacity 1 for what nothing shows through
+  void add(const std::vector<btVector3>& corners, const wetcloth::Colour& colour, double bias = 0, double opacity = 1);
   std::string svg();
 
  private:
@@ -36,7 +37,10 @@ class Painting {
     double depth;
     std::vector<PicturePoint> corners;
     std::string colour;
+    double opacity;
   };
+
+  static std::string strokeOf(const Polygon& polygon);
 
   const Camera& m_camera;
   std::vector<Polygon> m_polygons;

@@ -64,6 +64,7 @@ void RunReport::measureCloth(const wetcloth::WetCloth& cloth) {
   m_ledger.evaporated += ledger.evaporated;
   m_ledger.dripped += ledger.dripped;
   m_ledger.held += ledger.held;
+  m_ledger.runOff += ledger.runOff;
   for (const auto& effect : cloth.effects()) {
     if (std::find(m_effects.begin(), m_effects.end(), effect->name()) == m_effects.end()) {
       m_effects.emplace_back(effect->name());
@@ -87,11 +88,8 @@ nlohmann::ordered_json RunReport::json() const {
   json["effects"] = m_effects;
   json["wall_ms_per_step"] = m_times.wetMilliseconds;
   json["bullet_ms_per_step"] = m_times.plainMilliseconds;
-  json["ledger"] = {{"initial", m_ledger.initial},
-                    {"absorbed", m_ledger.absorbed},
-                    {"evaporated", m_ledger.evaporated},
-                    {"dripped", m_ledger.dripped},
-                    {"held", m_ledger.held}};
+  json["ledger"] = {{"initial", m_ledger.initial}, {"absorbed", m_ledger.absorbed}, {"evaporated", m_ledger.evaporated},
+                    {"dripped", m_ledger.dripped}, {"held", m_ledger.held},         {"run_off", m_ledger.runOff}};
   json["saturation"] = {{"min", m_saturation.min}, {"mean", m_saturation.mean}, {"max", m_saturation.max}};
   if (m_audit) {
     json["audit"] = {{"vertex_face", m_audit->vertexFace},

@@ -1,5 +1,6 @@
 #include "Scene.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace runner {
@@ -27,6 +28,12 @@ const std::vector<std::pair<std::string, Precision>>& precisionNames() {
                                                                     {"float64", Precision::float64}};
   return names;
 }
+
+bool ClothScene::hasEffect(const std::string& key) const {
+  return std::any_of(effects.begin(), effects.end(), [&](const EffectScene& effect) { return effect.key == key; });
+}
+
+btVector3 Scene::up() const { return gravity.length() > 0 ? btVector3(-gravity.normalized()) : btVector3(0, 1, 0); }
 
 std::string nameOf(WorldKind world) { return nameIn(worldNames(), world); }
 std::string nameOf(Precision precision) { return nameIn(precisionNames(), precision); }

@@ -3,6 +3,7 @@
 #include "bullet_wetcloth/bullet_wetcloth.h"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -55,6 +56,24 @@ struct TwistScene {
   double turns = 1;  ///< in all
 };
 
+/// A patch's or mesh's pinned nodes, moved together: where to at which time, in straight lines between.
+struct MotionScene {
+  std::vector<double> times;       ///< [s], each later than the one before
+  std::vector<btVector3> offsets;  ///< from where the nodes begin [m], one for each time
+};
+
+/// A scene's colliders in Bullet's world, in the scene's order.
+using Colliders = std::vector<const btCollisionObject*>;
+
+/// Adds an effect to a cloth. Throws std::invalid_argument when the library refuses it.
+using AddEffect = std::function<wetcloth::Effect&(wetcloth::WetCloth& cloth, const Colliders& colliders)>;
+
+/// An effect that a cloth of a scene asks for.
+struct EffectScene {
+  std::string key;  ///< as the scene spells it
+  AddEffect addTo;
+};
+
 struct ClothScene {
   std::string name;
   std::variant<wetcloth::ClothPatch, TriangleMesh> shape;
@@ -68,11 +87,11 @@ struct ClothScene {
   bool selfCollision = false;     ///< btSoftBody::setSelfCollision()
   int clusters = 0;               ///< btSoftBody::generateClusters(); 0: none
   std::optional<TwistScene> twist;
+  std::optional<MotionScene> motion;
   DeformableSprings springs;
-  std::optional<wetcloth::Absorption::Parameters> absorption;
-  std::optional<wetcloth::Wind::Parameters> wind;
-  std::optional<wetcloth::HookeSprings::Parameters> hookeSprings;
-  std::optional<wetcloth::CollisionAudit::Parameters> collisionAudit;
+  std::vector<EffectScene> effects;  ///< in the order in which they are added
+
+  bool hasEffect(const std::string& key) const;
 };
 
 struct Plane {
@@ -88,6 +107,12 @@ struct Sphere {
   double radius;
 };
 using Collider = std::variant<Plane, Box, Sphere>;
+
+/// A level surface of water, which Bullet is told of (btSoftBodyWorldInfo::water_normal and so on).
+struct WaterScene {
+  double level = 0;       ///< its height, against gravity, above the origin [m]
+  double density = 1000;  ///< [kg/m^3]
+};
 
 struct CameraScene {
   btVector3 direction =
@@ -108,7 +133,11 @@ struct Scene {
   bool implicit = false;
   std::vector<ClothScene> cloths;
   std::vector<Collider> colliders;
+  std::optional<WaterScene> water;
   CameraScene camera;
+
+  /// Against gravity, of length 1; y without gravity.
+  btVector3 up() const;
 };
 
 }  // namespace runner

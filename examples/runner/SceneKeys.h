@@ -14,14 +14,15 @@ struct KeyTable {
 
 namespace keys {
 
-inline const KeyTable scene{"scene",
-                            {"$schema", "name", "description", "world", "precision", "gravity_m_s2", "step_s",
-                             "substeps", "iterations", "duration_s", "implicit", "cloths", "colliders", "camera"}};
+inline const KeyTable scene{
+    "scene",
+    {"$schema", "name", "description", "world", "precision", "gravity_m_s2", "step_s", "substeps", "iterations",
+     "duration_s", "implicit", "cloths", "colliders", "water", "camera"}};
 
 inline const KeyTable cloth{"cloth",
                             {"name", "patch", "obj", "fabric", "pins", "initial_saturation", "friction", "damping",
-                             "margin_m", "collisions", "self_collision", "clusters", "twist", "spring_stiffness_n_m",
-                             "bending_stiffness_n_m", "spring_damping_n_s_m", "effects"}};
+                             "margin_m", "collisions", "self_collision", "clusters", "twist", "motion",
+                             "spring_stiffness_n_m", "bending_stiffness_n_m", "spring_damping_n_s_m", "effects"}};
 
 inline const KeyTable patch{"patch",
                             {"columns", "rows", "origin_m", "edge_u_m", "edge_v_m", "mechanical_stiffness",
@@ -34,6 +35,10 @@ inline const KeyTable fabric{
 inline const KeyTable pins{"pins", {"corners", "edges", "nodes"}};
 
 inline const KeyTable twist{"twist", {"edge", "turns_per_s", "turns"}};
+
+inline const KeyTable motion{"motion", {"times_s", "offsets_m"}};
+
+inline const KeyTable water{"water", {"level_m", "density_kg_m3"}};
 
 inline const KeyTable effects{"effects", {"absorption", "wind", "hooke_springs", "collision_audit"}};
 
@@ -62,9 +67,9 @@ inline const KeyTable sphere{"sphere", {"centre_m", "radius_m"}};
 
 inline const KeyTable camera{"camera", {"direction", "field_of_view_deg"}};
 
-inline const std::vector<const KeyTable*> all{&scene,          &cloth,         &patch, &fabric, &pins,         &effects,
-                                              &absorption,     &exposureBelow, &wind,  &gust,   &hookeSprings, &twist,
-                                              &collisionAudit, &collider,      &plane, &box,    &sphere,       &camera};
+inline const std::vector<const KeyTable*> all{
+    &scene,        &cloth, &patch,  &fabric, &pins,           &effects,  &absorption, &exposureBelow, &wind,   &gust,
+    &hookeSprings, &twist, &motion, &water,  &collisionAudit, &collider, &plane,      &box,           &sphere, &camera};
 
 }  // namespace keys
 }  // namespace runner

@@ -9,6 +9,7 @@ namespace {
 
 const wetcloth::Colour colliderColour{0.50, 0.42, 0.33};
 const wetcloth::Colour rodColour{0.16, 0.17, 0.19};
+const wetcloth::Colour waterColour{0.08, 0.22, 0.32};
 constexpr double colliderRoughness = 0.8;
 /// Cloth lies on colliders, its margin above them: they are painted as if they were this much farther away [m].
 constexpr double colliderBias = 0.06;
@@ -236,6 +237,36 @@ void paintCollider(Painting& painting, const Camera& camera, const Collider& col
   btVector3 inside(0, 0, 0);
   for (const btVector3& point : outline) inside += point / btScalar(outline.size());
   for (const auto& piece : surfaceOf(collider)) addFacing(painting, camera, piece, inside);
+}
+
+void paintWater(Painting& painting, const Camera& camera, const Scene& scene, const FrameShot& shot) {
+  if (!scene.water) return;
+  const btVector3 up = scene.up();
+  btVector3 u, v;
+  btPlaneSpace1(up, u, v);
+  btVector3 low(btScalar(1e9), btScalar(1e9), 0);
+  btVector3 high = -low;
+  for (const FrameShot::Cloth& cloth : shot.cloths) {
+    for (const btVector3& position : cloth.positions) {
+      const btVector3 onSurface(u.dot(position), v.dot(position), 0);
+      low.setMin(onSurface);
+      high.setMax(onSurface);
+    }
+  }
+  constexpr int count = 24;  // small ones, so that cloth before and behind them sorts rightly
+  const btScalar rim = btScalar(0.15) + (high - low).length() / 4;
+  const btVector3 start = low - btVector3(rim, rim, 0);
+  const btVector3 piece = (high - low + btVector3(2 * rim, 2 * rim, 0)) / count;
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < count; ++j) {
+      const btVector3 corner = up * btScalar(scene.water->level) + u * (start.x() + piece.x() * btScalar(i)) +
+                               v * (start.y() + piece.y() * btScalar(j));
+      const btVector3 alongU = u * piece.x();
+      const btVector3 alongV = v * piece.y();
+      painting.add({corner, corner + alongU, corner + alongU + alongV, corner + alongV},
+                   Light(camera).shade(waterColour, 0.3, up, camera.towards(corner)), 0, 0.45);
+    }
+  }
 }
 
 std::vector<btVector3> outlineOf(const Collider& collider) {

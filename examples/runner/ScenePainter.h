@@ -22,6 +22,9 @@ void paintRod(Painting& painting, const Camera& camera, const btSoftBody& body, 
 /// Spheres and boxes; planes are painted as the ground.
 void paintCollider(Painting& painting, const Camera& camera, const Collider& collider);
 
+/// The surface of the scene's water, as far as the cloths reach and somewhat farther.
+void paintWater(Painting& painting, const Camera& camera, const Scene& scene, const FrameShot& shot);
+
 /// The flat pieces that a sphere or box is painted with; none for a plane.
 std::vector<std::vector<btVector3>> surfaceOf(const Collider& collider);
 

@@ -192,6 +192,25 @@ TwistScene readTwist(JsonCursor cursor, const ClothScene& cloth) {
   return twist;
 }
 
+MotionScene readMotion(JsonCursor cursor) {
+  cursor.expectObject(keys::motion);
+  MotionScene motion;
+  for (const JsonCursor& time : cursor.at("times_s").elements()) {
+    if (!motion.times.empty() && !(time.number(Range::notNegative()) > motion.times.back())) {
+      time.complain("must be later than the time before it");
+    }
+    motion.times.push_back(time.number(Range::notNegative()));
+  }
+  if (motion.times.empty()) cursor.at("times_s").reject("an array with at least one time");
+  for (const JsonCursor& offset : cursor.at("offsets_m").elements()) {
+    motion.offsets.push_back(vectorOf(offset.triple()));
+  }
+  if (motion.offsets.size() != motion.times.size()) {
+    cursor.at("offsets_m").complain("must have one offset for each of times_s, " + std::to_string(motion.times.size()));
+  }
+  return motion;
+}
+
 ClothScene readCloth(JsonCursor cursor, WorldKind world) {
   cursor.expectObject(keys::cloth);
   ClothScene cloth;
@@ -210,8 +229,9 @@ ClothScene readCloth(JsonCursor cursor, WorldKind world) {
   readNumber(cursor, "margin_m", Range::positive(), cloth.margin);
   readCollisions(cursor, cloth);
   if (const auto twist = cursor.find("twist")) cloth.twist = readTwist(*twist, cloth);
+  if (const auto motion = cursor.find("motion")) cloth.motion = readMotion(*motion);
   readSprings(cursor, world, cloth.springs);
-  if (const auto effects = cursor.find("effects")) readEffects(*effects, nodeCountOf(cloth), cloth);
+  if (const auto effects = cursor.find("effects")) cloth.effects = readEffects(*effects, nodeCountOf(cloth));
   return cloth;
 }
 
@@ -239,6 +259,14 @@ Collider readCollider(JsonCursor cursor) {
   if (kind == "plane") return readPlane(cursor.at(kind));
   if (kind == "box") return readBox(cursor.at(kind));
   return readSphere(cursor.at(kind));
+}
+
+WaterScene readWater(JsonCursor cursor) {
+  cursor.expectObject(keys::water);
+  WaterScene water;
+  water.level = cursor.at("level_m").number(Range::finite());
+  readNumber(cursor, "density_kg_m3", Range::positive(), water.density);
+  return water;
 }
 
 CameraScene readCamera(JsonCursor cursor) {
@@ -286,6 +314,7 @@ Scene readScene(const std::string& file) {
   if (const auto colliders = cursor.find("colliders")) {
     for (const JsonCursor& collider : colliders->elements()) scene.colliders.push_back(readCollider(collider));
   }
+  if (const auto water = cursor.find("water")) scene.water = readWater(*water);
   if (const auto camera = cursor.find("camera")) scene.camera = readCamera(*camera);
   return scene;
 }

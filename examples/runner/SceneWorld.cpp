@@ -45,6 +45,7 @@ constexpr double planeHalfExtent = 50;
 
 SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_world(settingsOf(scene)) {
   if (kind == Kind::wet) m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_world.world());
+  if (scene.water) addWater(*scene.water);
   for (const Collider& collider : scene.colliders) addCollider(collider);
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
     const std::string pointer = "/cloths/" + std::to_string(i);
@@ -63,44 +64,47 @@ void SceneWorld::addCloth(const ClothScene& cloth) {
   body->getCollisionShape()->setMargin(btScalar(cloth.margin));
   if (cloth.clusters > 0) body->generateClusters(cloth.clusters);
   body->setSelfCollision(cloth.selfCollision);
-  const bool bulletPulls = !cloth.hookeSprings;
+  const bool bulletPulls = !cloth.hasEffect("hooke_springs");
   btSoftBody& added = m_world.add(std::move(body), bulletPulls ? &cloth.springs : nullptr);
   if (cloth.collisions) added.m_cfg.collisions = *cloth.collisions;
   if (cloth.twist) m_twists.emplace_back(added, std::get<wetcloth::ClothPatch>(cloth.shape), *cloth.twist);
+  if (cloth.motion) m_motions.emplace_back(added, *cloth.motion);
   m_bodies.push_back(&added);
 }
 
+void SceneWorld::addWater(const WaterScene& water) {
+  btSoftBodyWorldInfo& info = m_world.worldInfo();
+  info.water_normal = m_scene.up();
+  info.water_offset = btScalar(-water.level);
+  info.water_density = btScalar(water.density);
+}
+
 void SceneWorld::addEffects(std::size_t index, wetcloth::WetCloth& wet) {
-  const ClothScene& cloth = m_scene.cloths[index];
-  const std::string pointer = "/cloths/" + std::to_string(index) + "/effects/";
-  atPointer(m_scene, pointer + "absorption", [&] {
-    if (cloth.absorption) wet.add<wetcloth::Absorption>(*cloth.absorption);
-  });
-  atPointer(m_scene, pointer + "wind", [&] {
-    if (cloth.wind) wet.add<wetcloth::Wind>(*cloth.wind);
-  });
-  atPointer(m_scene, pointer + "hooke_springs", [&] {
-    if (cloth.hookeSprings) wet.add<wetcloth::HookeSprings>(*cloth.hookeSprings);
-  });
-  atPointer(m_scene, pointer + "collision_audit", [&] {
-    if (cloth.collisionAudit) m_audits.push_back(&wet.add<wetcloth::CollisionAudit>(*cloth.collisionAudit));
-  });
+  for (const EffectScene& effect : m_scene.cloths[index].effects) {
+    atPointer(m_scene, "/cloths/" + std::to_string(index) + "/effects/" + effect.key, [&] {
+      auto* audit = dynamic_cast<wetcloth::CollisionAudit*>(&effect.addTo(wet, m_colliders));
+      if (audit != nullptr) m_audits.push_back(audit);
+    });
+  }
 }
 
 void SceneWorld::addCollider(const Collider& collider) {
+  const auto addStatic = [this](std::unique_ptr<btCollisionShape> shape, const btTransform& where) {
+    m_colliders.push_back(&m_world.addStatic(std::move(shape), where));
+  };
   btTransform place = btTransform::getIdentity();
   if (const auto* sphere = std::get_if<Sphere>(&collider)) {
     place.setOrigin(sphere->centre);
-    m_world.addStatic(std::make_unique<btSphereShape>(btScalar(sphere->radius)), place);
+    addStatic(std::make_unique<btSphereShape>(btScalar(sphere->radius)), place);
   } else if (const auto* box = std::get_if<Box>(&collider)) {
     place.setOrigin(box->centre);
-    m_world.addStatic(std::make_unique<btBoxShape>(box->halfExtents), place);
+    addStatic(std::make_unique<btBoxShape>(box->halfExtents), place);
   } else {
     const auto& plane = std::get<Plane>(collider);
     const btScalar half = btScalar(planeHalfExtent);
     place.setRotation(shortestArcQuat(btVector3(0, 1, 0), plane.normal));
     place.setOrigin(plane.normal * (btScalar(plane.offset) - half));
-    m_world.addStatic(std::make_unique<btBoxShape>(btVector3(half, half, half)), place);
+    addStatic(std::make_unique<btBoxShape>(btVector3(half, half, half)), place);
   }
 }
 
@@ -108,7 +112,9 @@ void SceneWorld::step() {
   const btScalar dt = btScalar(m_scene.step / m_scene.substeps);
   for (int i = 0; i < m_scene.substeps; ++i) {
     ++m_substeps;
-    for (Twist& twist : m_twists) twist.moveTo(m_substeps * m_scene.step / m_scene.substeps);
+    const double time = m_substeps * m_scene.step / m_scene.substeps;
+    for (Twist& twist : m_twists) twist.moveTo(time);
+    for (Motion& motion : m_motions) motion.moveTo(time);
     m_world.substep(dt);
   }
 }

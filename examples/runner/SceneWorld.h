@@ -1,6 +1,7 @@
 #pragma once
 
 #include "BulletWorld.h"
+#include "Motion.h"
 #include "Scene.h"
 #include "Twist.h"
 
@@ -34,6 +35,7 @@ class SceneWorld {
  private:
   void addCloth(const ClothScene& cloth);
   void addEffects(std::size_t index, wetcloth::WetCloth& wet);
+  void addWater(const WaterScene& water);
   void addCollider(const Collider& collider);
 
   const Scene& m_scene;
@@ -42,7 +44,9 @@ class SceneWorld {
   std::vector<btSoftBody*> m_bodies;
   std::vector<wetcloth::WetCloth*> m_cloths;
   std::vector<wetcloth::CollisionAudit*> m_audits;
+  Colliders m_colliders;
   std::vector<Twist> m_twists;
+  std::vector<Motion> m_motions;
   int m_substeps = 0;
 };
 

@@ -11,15 +11,11 @@
 namespace runner {
 namespace {
 
-btVector3 upOf(const Scene& scene) {
-  return scene.gravity.length() > 0 ? btVector3(-scene.gravity.normalized()) : btVector3(0, 1, 0);
-}
-
 /// The plane that is the ground of the picture: a level one that the camera is above.
 const Plane* groundOf(const Scene& scene, const Camera& camera) {
   for (const Collider& collider : scene.colliders) {
     const auto* plane = std::get_if<Plane>(&collider);
-    if (plane == nullptr || plane->normal.dot(upOf(scene)) < btScalar(0.7)) continue;
+    if (plane == nullptr || plane->normal.dot(scene.up()) < btScalar(0.7)) continue;
     if (plane->normal.dot(camera.eye()) > btScalar(plane->offset)) return plane;
   }
   return nullptr;
@@ -142,7 +138,7 @@ std::string svgHead(double horizon) {
 }
 
 double horizonOf(const Scene& scene, const Camera& camera) {
-  const btVector3 up = upOf(scene);
+  const btVector3 up = scene.up();
   const btVector3 level = camera.forward() - up * up.dot(camera.forward());
   if (level.length() < btScalar(1e-3)) return -2000;
   const double y = camera.project(camera.eye() + level * btScalar(1e4)).y;
@@ -162,7 +158,7 @@ Camera fitCamera(const Scene& scene, const std::vector<FrameShot>& shots) {
     const std::vector<btVector3> outline = outlineOf(collider);
     seen.insert(seen.end(), outline.begin(), outline.end());
   }
-  return Camera(seen, scene.camera.direction, upOf(scene), scene.camera.fieldOfView);
+  return Camera(seen, scene.camera.direction, scene.up(), scene.camera.fieldOfView);
 }
 
 std::string svgFrame(const SceneWorld& world, const Camera& camera, const FrameShot& shot) {
@@ -176,6 +172,7 @@ std::string svgFrame(const SceneWorld& world, const Camera& camera, const FrameS
     paintRod(painting, camera, *world.bodies()[i], shot.cloths[i], ground);
   }
   for (const Collider& collider : scene.colliders) paintCollider(painting, camera, collider);
+  paintWater(painting, camera, scene, shot);
   return svg + painting.svg() + svgCaption(scene, shot) + "</svg>\n";
 }
 

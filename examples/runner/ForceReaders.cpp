@@ -1,0 +1,30 @@
+#include "EffectReaders.h"
+
+#include "ReadParameters.h"
+
+namespace runner {
+
+using wetcloth::Wind;
+
+AddEffect readWind(JsonCursor cursor, int) {
+  using Law = Wind::Law;
+  using Integration = Wind::Integration;
+  static const std::vector<std::pair<std::string, Law>> laws{
+      {"quadratic", Law::quadratic}, {"linear", Law::linear}, {"paper", Law::paper}};
+  static const std::vector<std::pair<std::string, Integration>> integrations{
+      {"semi_implicit", Integration::semiImplicit}, {"explicit_euler", Integration::explicitEuler}};
+  cursor.expectObject(keys::wind);
+  Wind::Parameters parameters;
+  if (readMode(cursor) == Mode::paper) parameters.law = Law::paper;
+  parameters.velocity = readWindField(cursor);
+  if (const auto law = cursor.find("law")) parameters.law = law->choice(laws);
+  if (const auto found = cursor.find("integration")) parameters.integration = found->choice(integrations);
+  readNumber(cursor, "air_density_kg_m3", Range::notNegative(), parameters.airDensity);
+  readNumber(cursor, "drag_coefficient", Range::notNegative(), parameters.dragCoefficient);
+  readNumber(cursor, "skin_friction", Range::notNegative(), parameters.skinFriction);
+  readNumber(cursor, "linear_drag_n_s_m3", Range::notNegative(), parameters.linearDrag);
+  readNumber(cursor, "paper_force_n", Range::notNegative(), parameters.paperForce);
+  return addEffect<Wind>(parameters);
+}
+
+}  // namespace runner
