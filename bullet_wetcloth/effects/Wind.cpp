@@ -3,6 +3,7 @@
 #include "bullet_wetcloth/DryMass.h"
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/effects/FluidResistance.h"
 
 #include <Eigen/Core>
 
@@ -42,46 +43,14 @@ void set(btScalar (&to)[4], btScalar v0, btScalar v1, btScalar v2, btScalar v3) 
 constexpr btScalar kThird = btScalar(1) / 3;
 constexpr btScalar kSixth = btScalar(1) / 6;
 
-// A triangle's unit normal and area; area 0 and normal 0 for one that has none (or is not finite).
-struct Triangle {
-  btVector3 normal;
-  btScalar area;
-};
-
-Triangle triangleOf(const btVector3& a, const btVector3& b, const btVector3& c) {
-  const btVector3 twice = (b - a).cross(c - a);
-  const btScalar length = twice.length();
-  if (!(length > 0 && std::isfinite(length))) return {btVector3(0, 0, 0), 0};
-  return {twice / length, length / 2};
-}
-
-// Speed at the end of a step of du/dt = -a |u| u by backward Euler, from speed u: the root of v + a v^2 = u. With it
-// as the lagged coefficient, a falling sheet reaches its terminal speed exactly, whatever the step.
-btScalar dampedSpeed(btScalar u, btScalar a) { return 2 * u / (1 + std::sqrt(1 + 4 * a * u)); }
-
-// Force per area and relative speed [N s/m^3], along the normal and along the surface.
-struct Resistance {
-  btScalar linear;     // k
-  btScalar quadratic;  // 1/2 rho C_d
-  btScalar friction;   // 1/2 rho C_f
-  btScalar dt;         // of the implicit step, 0: explicit
-
-  btScalar normal(btScalar speed, btScalar specificArea) const {
-    return linear + quadratic * dampedSpeed(speed, dt * quadratic * specificArea);
-  }
-  btScalar tangent(btScalar speed, btScalar specificArea) const {
-    return friction * dampedSpeed(speed, dt * friction * specificArea);
-  }
-};
-
-btVector3 forceOnTriangle(const Triangle& triangle, const btVector3& relative, const Resistance& resistance) {
+btVector3 forceOnTriangle(const FlatTriangle& triangle, const btVector3& relative, const FluidResistance& resistance) {
   const btVector3 across = triangle.normal * triangle.normal.dot(relative);
   const btVector3 along = relative - across;
   return (across * resistance.normal(across.length(), 0) + along * resistance.tangent(along.length(), 0)) *
          triangle.area;
 }
 
-Resistance resistanceOf(const Wind::Parameters& parameters, const Step& step) {
+FluidResistance resistanceOf(const Wind::Parameters& parameters, const Step& step) {
   const bool isImplicit = parameters.integration == Wind::Integration::semiImplicit;
   const btScalar dt = isImplicit ? static_cast<btScalar>(step.dt) : 0;
   if (parameters.law == Wind::Law::linear) return {static_cast<btScalar>(parameters.linearDrag), 0, 0, dt};
@@ -92,20 +61,20 @@ Resistance resistanceOf(const Wind::Parameters& parameters, const Step& step) {
 }  // namespace
 
 btVector3 paperWindForce(const btVector3& a, const btVector3& b, const btVector3& c, const btVector3& wind) {
-  const btVector3 normal = triangleOf(a, b, c).normal;
+  const btVector3 normal = flatTriangle(a, b, c).normal;
   return normal * normal.dot(wind);
 }
 
 btVector3 quadraticWindForce(const btVector3& a, const btVector3& b, const btVector3& c, const btVector3& velocity,
                              const btVector3& wind, double airDensity, double dragCoefficient, double skinFriction) {
-  const Resistance resistance = {0, static_cast<btScalar>(airDensity * dragCoefficient / 2),
-                                 static_cast<btScalar>(airDensity * skinFriction / 2), 0};
-  return forceOnTriangle(triangleOf(a, b, c), wind - velocity, resistance);
+  const FluidResistance resistance = {0, static_cast<btScalar>(airDensity * dragCoefficient / 2),
+                                      static_cast<btScalar>(airDensity * skinFriction / 2), 0};
+  return forceOnTriangle(flatTriangle(a, b, c), wind - velocity, resistance);
 }
 
 btVector3 linearWindForce(const btVector3& a, const btVector3& b, const btVector3& c, const btVector3& velocity,
                           const btVector3& wind, double linearDrag) {
-  return forceOnTriangle(triangleOf(a, b, c), wind - velocity, {static_cast<btScalar>(linearDrag), 0, 0, 0});
+  return forceOnTriangle(flatTriangle(a, b, c), wind - velocity, {static_cast<btScalar>(linearDrag), 0, 0, 0});
 }
 
 Wind::Wind(Parameters parameters) : m_parameters(std::move(parameters)) {
@@ -194,7 +163,7 @@ struct Wind::Block {
   btScalar push[kSize];  // R / (6 |N|)
   btScalar drag[kSize];  // R |N| / 6
 
-  void resist(const Resistance& resistance);
+  void resist(const FluidResistance& resistance);
 };
 
 void Wind::accumulate(const Step& step) {
@@ -243,7 +212,7 @@ void Wind::accumulate(Block& block, const Step& step, std::size_t first, std::si
   }
 }
 
-void Wind::Block::resist(const Resistance& resistance) {
+void Wind::Block::resist(const FluidResistance& resistance) {
   btScalar squared[kSize];
   for (std::size_t f = 0; f < kSize; ++f) {
     const auto sum = [](const btScalar(&v)[4]) { return v[0] + v[1] + v[2]; };
@@ -262,7 +231,7 @@ void Wind::Block::resist(const Resistance& resistance) {
 
 // A pass of its own, since few scenes ask for it.
 void Wind::accumulateFriction(const Step& step) {
-  const Resistance resistance = resistanceOf(m_parameters, step);
+  const FluidResistance resistance = resistanceOf(m_parameters, step);
   const WindField& field = m_parameters.velocity;
   for (const std::array<int, 3>& corners : m_triangles) {
     NodeState* nodes[3];
@@ -273,7 +242,7 @@ void Wind::accumulateFriction(const Step& step) {
       x[k] = positionOf(nodes[k]->position);
       specificArea += nodes[k]->position[3] * kThird;
     }
-    const Triangle triangle = triangleOf(x[0], x[1], x[2]);
+    const FlatTriangle triangle = flatTriangle(x[0], x[1], x[2]);
     const btVector3 wind = field.isFunction() ? field.at((x[0] + x[1] + x[2]) * kThird, step.time) : btVector3(0, 0, 0);
     btVector3 along[3];
     for (int k = 0; k < 3; ++k) {

@@ -1,0 +1,123 @@
+#include "bullet_wetcloth/effects/Dripping.h"
+
+#include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/WetCloth.h"
+
+#include <cmath>
+#include <utility>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+// An exponential never arrives. When less than this share of the capacity is above what the node keeps, it all goes, so
+// that a cloth which has dripped off can idle.
+constexpr double kNegligible = 1e-13;
+
+}  // namespace
+
+double drippingStep(double held, double holding, double timeConstant, double dt) {
+  return held > holding ? (held - holding) * -std::expm1(-dt / timeConstant) : 0;
+}
+
+bool isLower(const btVector3& other, const btVector3& x, const btVector3& down, double slopeTolerance) {
+  const btVector3 towards = other - x;
+  return static_cast<double>(towards.dot(down)) > slopeTolerance * static_cast<double>(towards.length());
+}
+
+Dripping::Dripping(Parameters parameters) : m_parameters(std::move(parameters)) {
+  requireFraction("Dripping.holdingSaturation", m_parameters.holdingSaturation);
+  requirePositive("Dripping.timeConstant", m_parameters.timeConstant);
+  requireNotNegative("Dripping.dropMass", m_parameters.dropMass);
+  requireFraction("Dripping.slopeTolerance", m_parameters.slopeTolerance);
+}
+
+void Dripping::setHoldingSaturation(double holdingSaturation) {
+  requireFraction("Dripping.holdingSaturation", holdingSaturation);
+  m_parameters.holdingSaturation = holdingSaturation;
+  m_hasNoExcess = false;
+  m_settling.restart();
+}
+
+void Dripping::attach(WetCloth& cloth) {
+  if (cloth.body().m_faces.size() == 0) {
+    rejectValue("Dripping: body.m_faces.size()", 0,
+                "at least 1: low points are found along the edges of triangles, and a rope has none");
+  }
+  m_mesh = &cloth.restMesh();
+  const std::size_t nodes = cloth.water().size();
+  m_carry.assign(nodes, 0);
+  // What dripped from nodes that are gone is some other node's to report.
+  for (std::size_t i = nodes; i < m_pending.size(); ++i) m_pending[0] += m_pending[i];
+  m_pending.resize(nodes, 0);
+  m_hasNoExcess = false;
+  m_settling.restart();
+}
+
+void Dripping::apply(WetCloth& cloth, const Step& step) {
+  const btScalar gravity = step.gravity.length();
+  if (!(gravity > 0 && std::isfinite(gravity))) return;
+  Water& water = cloth.water();
+  if (m_hasNoExcess && m_revisionWithoutExcess == water.revision()) return;
+  if (m_settling.isSettled(cloth, step)) return;
+
+  const btVector3 down = step.gravity / gravity;
+  bool hasExcess = false;
+  bool drips = false;
+  for (std::size_t i = 0; i < m_carry.size(); ++i) {
+    if (!(water.held(i) > m_parameters.holdingSaturation * water.capacity(i))) continue;
+    hasExcess = true;
+    if (!isLowPoint(cloth.body(), i, down)) continue;
+    drips = true;
+    shed(water, i, step.dt);
+    report(cloth, step, i);
+  }
+  m_nodesVisited += static_cast<long long>(m_carry.size());
+  m_hasNoExcess = !hasExcess;
+  m_revisionWithoutExcess = water.revision();
+  // However slowly a node drips, it drips on: only when none does may the cloth's shape decide when to look again.
+  m_settling.note(cloth, step, drips ? water.totalCapacity() : 0);
+}
+
+double Dripping::pendingMass() const {
+  CompensatedSum sum;
+  for (const double pending : m_pending) sum.add(pending);
+  return sum.value();
+}
+
+bool Dripping::isLowPoint(const btSoftBody& body, std::size_t node, const btVector3& down) const {
+  const btVector3& x = body.m_nodes[static_cast<int>(node)].m_x;
+  for (const int neighbour : m_mesh->neighbours(node)) {
+    if (isLower(body.m_nodes[neighbour].m_x, x, down, m_parameters.slopeTolerance)) return false;
+  }
+  return true;
+}
+
+void Dripping::shed(Water& water, std::size_t node, double dt) {
+  const double held = water.held(node);
+  const double holding = m_parameters.holdingSaturation * water.capacity(node);
+  const double exact = held - m_carry[node];
+  const double leaving = drippingStep(exact, holding, m_parameters.timeConstant, dt);
+  const bool isLast = exact - leaving - holding <= kNegligible * water.capacity(node);
+  // Many small portions would be lost to rounding against a large amount of water; the carry keeps them.
+  const double portion = isLast ? held - holding : leaving + m_carry[node];
+  const double left = water.drip(node, portion);
+  m_carry[node] = isLast ? 0 : portion - left;
+  m_pending[node] += left;
+  m_dripped.add(left);
+}
+
+void Dripping::report(WetCloth& cloth, const Step& step, std::size_t node) {
+  const double mass = m_pending[node];
+  if (!(mass > 0 && mass >= m_parameters.dropMass)) return;
+  m_pending[node] = 0;
+  ++m_drops;
+  if (!m_parameters.onDrip) return;
+  const int number = static_cast<int>(node);
+  const btSoftBody::Node& from = cloth.body().m_nodes[number];
+  m_parameters.onDrip({step.time, from.m_x, from.m_v, mass, number, &cloth});
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,151 @@
+#include "bullet_wetcloth/effects/Drying.h"
+
+#include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/mesh/RestMesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+// An exponential never arrives. When less than this share of the capacity is left it all goes, so that a dry cloth can
+// idle.
+constexpr double kNegligible = 1e-13;
+
+constexpr double kSecondsPerDay = 86400;
+constexpr double kPenman = 6.43e3 / kSecondsPerDay;  // in still air [W/m^2/Pa]
+constexpr double kWindFunction = 0.536;              // [s/m]
+constexpr double kLatentHeat = 2.45e6;               // lambda [J/kg]
+
+double windFunction(double airSpeed) { return 1 + kWindFunction * airSpeed; }
+
+void requireClimate(double temperature, double relativeHumidity) {
+  if (!(temperature >= 0 && temperature <= 60)) rejectValue("Drying.temperature", temperature, "in [0, 60]");
+  requireFraction("Drying.relativeHumidity", relativeHumidity);
+}
+
+double stillAirRate(const Drying::Parameters& parameters) {
+  return parameters.sides * evaporationRate(parameters.temperature, parameters.relativeHumidity, 0);
+}
+
+}  // namespace
+
+double saturationVapourPressure(double temperature) {
+  return 610.8 * std::exp(17.27 * temperature / (temperature + 237.3));
+}
+
+double evaporationRate(double temperature, double relativeHumidity, double airSpeed) {
+  const double deficit = saturationVapourPressure(temperature) * (1 - relativeHumidity);
+  return kPenman * windFunction(airSpeed) * deficit / kLatentHeat;
+}
+
+double dryingStep(double held, double critical, double rate, double dt) {
+  const double supply = rate * dt;
+  const double aboveCritical = std::max(held - critical, 0.0);
+  if (supply <= aboveCritical) return supply;
+  return aboveCritical + (held - aboveCritical) * -std::expm1(-(supply - aboveCritical) / critical);
+}
+
+double dryingTime(double from, double to, double critical, double rate) {
+  if (!(to < from)) return 0;
+  if (!(to > 0 && rate > 0)) return std::numeric_limits<double>::infinity();
+  const double constant = std::max(from - std::max(to, critical), 0.0);
+  const double falling = to < critical ? critical * std::log(std::min(from, critical) / to) : 0;
+  return (constant + falling) / rate;
+}
+
+Drying::Drying(Parameters parameters) : m_parameters(std::move(parameters)) {
+  requireClimate(m_parameters.temperature, m_parameters.relativeHumidity);
+  m_parameters.air.requireValid("Drying.air");
+  const double critical = m_parameters.criticalSaturation;
+  if (!(critical > 0 && critical <= 1)) rejectValue("Drying.criticalSaturation", critical, "in (0, 1]");
+  if (!(m_parameters.sides > 0 && m_parameters.sides <= 2)) {
+    rejectValue("Drying.sides", m_parameters.sides, "in (0, 2]");
+  }
+  m_parameters.exposure.requireValid("Drying.exposure");
+  m_stillAirRate = stillAirRate(m_parameters);
+}
+
+void Drying::setClimate(double temperature, double relativeHumidity) {
+  requireClimate(temperature, relativeHumidity);
+  m_parameters.temperature = temperature;
+  m_parameters.relativeHumidity = relativeHumidity;
+  m_stillAirRate = stillAirRate(m_parameters);
+}
+
+void Drying::setAir(WindField air) {
+  air.requireValid("Drying.air");
+  m_parameters.air = std::move(air);
+}
+
+void Drying::setExposure(Exposure exposure) {
+  exposure.requireValid("Drying.exposure");
+  if (!m_carry.empty()) exposure.requireSize("Drying.exposure", m_carry.size());
+  m_parameters.exposure = std::move(exposure);
+  m_isDry = m_hasNormals = false;
+}
+
+void Drying::attach(WetCloth& cloth) {
+  if (cloth.body().m_faces.size() == 0) {
+    rejectValue("Drying: body.m_faces.size()", 0, "at least 1: water dries by area, and a rope has none");
+  }
+  const bool firstTime = m_carry.empty();
+  if (firstTime) m_parameters.exposure.requireSize("Drying.exposure", cloth.water().size());
+  m_areas = cloth.restMesh().nodeAreas();
+  m_carry.assign(cloth.water().size(), 0);
+  m_isDry = m_hasNormals = false;
+}
+
+void Drying::apply(WetCloth& cloth, const Step& step) {
+  if (m_stillAirRate == 0 || (m_isDry && m_dryRevision == cloth.water().revision())) return;
+  if (m_parameters.exposure.isFunction() && !m_hasNormals) {
+    // Bullet computes normals at the end of a step: a body that has never stepped has none yet.
+    cloth.body().updateNormals();
+    m_hasNormals = true;
+  }
+  bool isDry = true;
+  for (std::size_t i = 0; i < m_carry.size(); ++i) {
+    const bool isNodeDry = dry(cloth, step, i);
+    isDry = isDry && isNodeDry;
+  }
+  m_nodesVisited += static_cast<long long>(m_carry.size());
+  m_isDry = isDry;
+  m_dryRevision = cloth.water().revision();
+}
+
+double Drying::rateOf(const WetCloth& cloth, const Step& step, std::size_t node) const {
+  const btSoftBody::Node& at = cloth.body().m_nodes[static_cast<int>(node)];
+  const double area = m_areas[node] * m_parameters.exposure.at(node, at.m_x, at.m_n);
+  if (!(area > 0)) return 0;
+  const btVector3 relative = m_parameters.air.at(at.m_x, step.time) - at.m_v;
+  const double rate = m_stillAirRate * windFunction(static_cast<double>(relative.length())) * area;
+  return std::isfinite(rate) ? rate : 0;
+}
+
+// Returns whether nothing more will dry off the node.
+bool Drying::dry(WetCloth& cloth, const Step& step, std::size_t node) {
+  Water& water = cloth.water();
+  const double held = water.held(node);
+  if (!(held > 0)) return true;
+  const double rate = rateOf(cloth, step, node);
+  // A function may expose the node later; anything else stays as it is.
+  if (!(rate > 0)) return m_areas[node] == 0 || !m_parameters.exposure.isFunction();
+
+  const double exact = held - m_carry[node];
+  const double leaving = dryingStep(exact, m_parameters.criticalSaturation * water.capacity(node), rate, step.dt);
+  const bool isLast = exact - leaving <= kNegligible * water.capacity(node);
+  // Many small portions would be lost to rounding against a large amount of water; the carry keeps them.
+  const double portion = isLast ? held : leaving + m_carry[node];
+  const double left = water.evaporate(node, portion);
+  m_carry[node] = isLast ? 0 : portion - left;
+  return isLast;
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

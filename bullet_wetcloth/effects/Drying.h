@@ -1,0 +1,83 @@
+#pragma once
+
+#include "bullet_wetcloth/Effect.h"
+#include "bullet_wetcloth/effects/Exposure.h"
+#include "bullet_wetcloth/effects/WindField.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Pressure of water vapour over water at this temperature [Pa] (Tetens 1930): 610.8 exp(17.27 T / (T + 237.3)).
+/// @param temperature T [degC], within 0.2 % in [0, 60]
+double saturationVapourPressure(double temperature);
+
+/// Water that a wet surface gives to the air [kg/m^2/s], for each side: the aerodynamic term of Penman (1948) in the
+/// units of Shuttleworth (1993, Eq. 4.2.30), 6.43 MJ/m^2/day/kPa (1 + 0.536 u) e_s(T) (1 - RH) / lambda with lambda
+/// 2.45 MJ/kg. The surface is as warm as the air: the heat that drying takes (and sunshine gives) is left out.
+/// @param temperature T [degC]; @param relativeHumidity RH, [0, 1]; @param airSpeed u, relative to the surface [m/s]
+double evaporationRate(double temperature, double relativeHumidity, double airSpeed);
+
+/// Water that dries off in dt [kg], exact for any dt and across the change of stage (two periods of drying: Sherwood
+/// 1929): dw/dt = -rate while w > w_c, -rate w / w_c below.
+/// @param held w [kg], >= 0; @param critical w_c [kg], > 0; @param rate E A [kg/s], >= 0; @param dt [s], >= 0
+double dryingStep(double held, double critical, double rate, double dt);
+
+/// Time in which `from` dries down to `to` by the same law [s]: infinite when `to` or the rate is 0, and 0 when there
+/// is nothing to dry.
+double dryingTime(double from, double to, double critical, double rate);
+
+/// Lets a cloth dry: each node loses water by its area at rest, at a constant rate as long as its surface is wet, then
+/// in proportion to what is left. Does not know what is under water or indoors: that is for `exposure` to say.
+class Drying : public Effect {
+ public:
+  struct Parameters {
+    double temperature = 20;        ///< of the air and the cloth [degC], [0, 60]
+    double relativeHumidity = 0.5;  ///< [0, 1]; 1: nothing dries
+    /// Velocity of the air [m/s]: a constant, or a function of position and time. Its speed relative to the moving
+    /// node counts.
+    WindField air = {};
+    /// Saturation at which the surface begins to fall dry, (0, 1]. A guess.
+    double criticalSaturation = 0.3;
+    double sides = 2;  ///< of the cloth that air reaches, (0, 2]
+    /// Share of a node's area that air reaches, [0, 1]: a constant, one value per node, or a function of the node's
+    /// position and normal.
+    Exposure exposure = 1.0;
+  };
+
+  /// Throws std::invalid_argument naming the field and the value.
+  explicit Drying(Parameters parameters);
+
+  const Parameters& parameters() const { return m_parameters; }
+  /// Each throws std::invalid_argument, and then nothing changes.
+  void setClimate(double temperature, double relativeHumidity);
+  void setAir(WindField air);
+  void setExposure(Exposure exposure);
+
+  const char* name() const override { return "Drying"; }
+  Stage stage() const override { return Stage::losses; }
+  /// Throws std::invalid_argument when the body has no faces, or an exposure has not one value per node.
+  void attach(WetCloth& cloth) override;
+  void apply(WetCloth& cloth, const Step& step) override;
+
+  /// Nodes visited so far: for tests that count work. A dry cloth adds none.
+  long long nodesVisited() const { return m_nodesVisited; }
+
+ private:
+  double rateOf(const WetCloth& cloth, const Step& step, std::size_t node) const;
+  bool dry(WetCloth& cloth, const Step& step, std::size_t node);
+
+  Parameters m_parameters;
+  double m_stillAirRate = 0;  // of all sides [kg/m^2/s]
+  std::vector<double> m_areas;
+  std::vector<double> m_carry;  // what each node lost but its rounded water could not show yet [kg]
+  unsigned long long m_dryRevision = 0;
+  bool m_isDry = false;
+  bool m_hasNormals = false;
+  long long m_nodesVisited = 0;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

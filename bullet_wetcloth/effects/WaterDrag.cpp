@@ -1,0 +1,180 @@
+#include "bullet_wetcloth/effects/WaterDrag.h"
+
+#include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/WetCloth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+constexpr double kHeldWaterDensity = 1000;  // [kg/m^3]
+
+btVector3 centreOf(const btSoftBody& body) { return (body.m_bounds[0] + body.m_bounds[1]) / 2; }
+btVector3 sizeOf(const btSoftBody& body) { return body.m_bounds[1] - body.m_bounds[0]; }
+
+// Of the bounding box's lowest corner [m], negative when all of it is above the water.
+double greatestDepth(const WaterSurface& surface, const btSoftBody& body) {
+  return surface.depth(centreOf(body)) + static_cast<double>(surface.normal.absolute().dot(sizeOf(body))) / 2;
+}
+
+// Bullet's box is one step old, and positions written by hand are not in it at all: only a body that is above the water
+// by more than its own size can be left alone without a look at its nodes.
+bool isWellAbove(const WaterSurface& surface, const btSoftBody& body) {
+  return greatestDepth(surface, body) < -static_cast<double>(sizeOf(body).length());
+}
+
+bool isReached(const std::optional<WaterSurface>& surface, const btSoftBody& body) {
+  return surface && greatestDepth(*surface, body) > 0;
+}
+
+bool differs(const WaterSurface& now, const WaterSurface& before, const btSoftBody& body) {
+  const btVector3 centre = centreOf(body);
+  const double size = static_cast<double>(sizeOf(body).length());
+  const double current = static_cast<double>(before.velocity.length());
+  return std::fabs(now.depth(centre) - before.depth(centre)) > 1e-3 * size ||
+         (now.normal - before.normal).length() > btScalar(1e-3) ||
+         static_cast<double>((now.velocity - before.velocity).length()) > std::max(0.01, 0.1 * current) ||
+         std::fabs(now.density - before.density) > 0.01 * before.density;
+}
+
+}  // namespace
+
+double displacedVolume(double dryMass, double fibreDensity, double held) {
+  return dryMass / fibreDensity + held / kHeldWaterDensity;
+}
+
+double sinkingSpeed(double arealDensity, double fibreDensity, double waterDensity, double dragCoefficient,
+                    double gravity) {
+  const double weight = arealDensity * (1 - waterDensity / fibreDensity) * gravity;
+  return std::copysign(std::sqrt(2 * std::fabs(weight) / (waterDensity * dragCoefficient)), weight);
+}
+
+WaterDrag::WaterDrag(Parameters parameters) : m_parameters(std::move(parameters)) {
+  if (m_parameters.surface) requireValid("WaterDrag.surface", *m_parameters.surface);
+  requireNotNegative("WaterDrag.dragCoefficient", m_parameters.dragCoefficient);
+  requireNotNegative("WaterDrag.skinFriction", m_parameters.skinFriction);
+  requirePositive("WaterDrag.fibreDensity", m_parameters.fibreDensity);
+}
+
+void WaterDrag::setSurface(const WaterSurface& surface) {
+  requireValid("WaterDrag.surface", surface);
+  m_parameters.surface = surface;
+}
+
+void WaterDrag::attach(WetCloth& cloth) {
+  if (cloth.body().m_faces.size() == 0) {
+    rejectValue("WaterDrag: body.m_faces.size()", 0, "at least 1: water resists triangles, and a rope has none");
+  }
+  requireSurface("WaterDrag.surface", m_parameters.surface, cloth.body());
+  m_mesh = &cloth.restMesh();
+  m_nodes.resize(cloth.water().size());
+}
+
+void WaterDrag::apply(WetCloth& cloth, const Step& step) {
+  m_totalForce.setZero();
+  m_surface = surfaceFor(m_parameters.surface, cloth.body());
+  if (!m_surface || isWellAbove(*m_surface, cloth.body()) || !gather(cloth, step)) return;
+  accumulate(cloth.body(), step);
+  scatter(cloth, step);
+}
+
+bool WaterDrag::wakes(const WetCloth& cloth, const Step& step) const {
+  static_cast<void>(step);
+  const std::optional<WaterSurface> now = surfaceFor(m_parameters.surface, cloth.body());
+  const bool isReachedNow = isReached(now, cloth.body());
+  if (isReachedNow != isReached(m_surface, cloth.body())) return true;
+  return isReachedNow && differs(*now, *m_surface, cloth.body());
+}
+
+// Bullet adds gravity right after us. Resistance that looks at the velocity with gravity and buoyancy in it balances
+// them exactly at the terminal speed. Returns whether any node is in the water.
+bool WaterDrag::gather(const WetCloth& cloth, const Step& step) {
+  const Water& water = cloth.water();
+  const std::vector<double>& areas = m_mesh->nodeAreas();
+  const btScalar dt = static_cast<btScalar>(step.dt);
+  bool isAnyImmersed = false;
+  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+    const btSoftBody::Node& node = cloth.body().m_nodes[static_cast<int>(i)];
+    NodeState& state = m_nodes[i];
+    state.isImmersed = m_surface->depth(node.m_x) > 0;
+    if (!state.isImmersed) continue;
+    isAnyImmersed = true;
+    const double volume = displacedVolume(water.dryMass(i), m_parameters.fibreDensity, water.held(i));
+    state.lift = step.gravity * static_cast<btScalar>(-m_surface->density * volume);
+    const btVector3 fall = (step.gravity + state.lift * node.m_im) * dt;
+    state.relative = m_surface->velocity - node.m_v - (node.m_im > 0 ? fall : btVector3(0, 0, 0));
+    state.specificArea = static_cast<btScalar>(areas[i]) * node.m_im;
+    state.resistance.setZero();
+    state.drag = 0;
+  }
+  m_nodesVisited += static_cast<long long>(m_nodes.size());
+  return isAnyImmersed;
+}
+
+void WaterDrag::accumulate(const btSoftBody& body, const Step& step) {
+  const FluidResistance resistance = {0, static_cast<btScalar>(m_surface->density * m_parameters.dragCoefficient / 2),
+                                      static_cast<btScalar>(m_surface->density * m_parameters.skinFriction / 2),
+                                      static_cast<btScalar>(step.dt)};
+  const auto isImmersed = [this](int node) { return m_nodes[static_cast<std::size_t>(node)].isImmersed; };
+  for (const RestMesh::Triangle& triangle : m_mesh->triangles()) {
+    const std::array<int, 3>& corners = triangle.nodes;
+    if (std::none_of(corners.begin(), corners.end(), isImmersed)) continue;
+    const auto position = [&](std::size_t k) { return body.m_nodes[corners[k]].m_x; };
+    resist(triangle, flatTriangle(position(0), position(1), position(2)), resistance);
+  }
+  m_trianglesVisited += static_cast<long long>(m_mesh->triangles().size());
+}
+
+// Each corner takes its third by its own relative velocity: then the water can only bring a node closer to its own.
+void WaterDrag::resist(const RestMesh::Triangle& triangle, const FlatTriangle& shape,
+                       const FluidResistance& resistance) {
+  NodeState* immersed[3] = {};
+  std::size_t count = 0;
+  btVector3 mean(0, 0, 0);
+  btScalar specificArea = 0;
+  for (const int corner : triangle.nodes) {
+    NodeState& node = m_nodes[static_cast<std::size_t>(corner)];
+    if (!node.isImmersed) continue;
+    immersed[count++] = &node;
+    mean += node.relative;
+    specificArea += node.specificArea;
+  }
+  const btScalar share = 1 / static_cast<btScalar>(count);
+  const btScalar meanAcross = shape.normal.dot(mean) * share;
+  const btScalar meanAlong = (mean * share - shape.normal * meanAcross).length();
+  const btScalar third = shape.area / 3;
+  const btScalar normal = third * resistance.normal(std::fabs(meanAcross), specificArea * share);
+  const btScalar tangent = third * resistance.tangent(meanAlong, specificArea * share);
+  for (std::size_t k = 0; k < count; ++k) {
+    NodeState& node = *immersed[k];
+    const btVector3 across = shape.normal * shape.normal.dot(node.relative);
+    node.resistance += across * normal + (node.relative - across) * tangent;
+    node.drag += std::max(normal, tangent);
+  }
+}
+
+// With s >= the largest eigenvalue of the node's drag tensor, (I - dt D / (m + dt s)) never lengthens the velocity
+// relative to the water, for any mass and step; on a flat sheet it is backward Euler.
+void WaterDrag::scatter(WetCloth& cloth, const Step& step) {
+  const btScalar dt = static_cast<btScalar>(step.dt);
+  double total[3] = {0, 0, 0};
+  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+    const NodeState& state = m_nodes[i];
+    if (!state.isImmersed) continue;
+    btSoftBody::Node& node = cloth.body().m_nodes[static_cast<int>(i)];
+    const btVector3 force = state.lift + state.resistance / (1 + dt * state.drag * node.m_im);
+    for (int axis = 0; axis < 3; ++axis) total[axis] += static_cast<double>(force[axis]);
+    cloth.push(node, force * (dt * node.m_im));
+  }
+  m_totalForce.setValue(static_cast<btScalar>(total[0]), static_cast<btScalar>(total[1]),
+                        static_cast<btScalar>(total[2]));
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
