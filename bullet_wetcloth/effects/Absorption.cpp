@@ -10,14 +10,6 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-namespace {
-
-// An exponential never arrives. When less than this share of the capacity is missing the node takes it all, so that
-// a saturated cloth can idle; it is a tenth of the closeness to the closed form that we promise (1e-12).
-constexpr double kNegligible = 1e-13;
-
-}  // namespace
-
 double exponentialShare(double rate) { return -std::expm1(-rate); }
 
 double eulerShare(double rate) { return std::min(rate, 1.0); }
@@ -37,15 +29,15 @@ Absorption::Absorption(Parameters parameters) : m_parameters(std::move(parameter
 
 void Absorption::setExposure(Exposure exposure) {
   exposure.requireValid("Absorption.exposure");
-  if (!m_carry.empty()) exposure.requireSize("Absorption.exposure", m_carry.size());
+  if (m_uptake.size() > 0) exposure.requireSize("Absorption.exposure", m_uptake.size());
   m_parameters.exposure = std::move(exposure);
   m_settled = m_hasNormals = false;
 }
 
 void Absorption::attach(WetCloth& cloth) {
-  const bool firstTime = m_carry.empty();
+  const bool firstTime = m_uptake.size() == 0;
   if (firstTime) m_parameters.exposure.requireSize("Absorption.exposure", cloth.water().size());
-  m_carry.assign(cloth.water().size(), 0);
+  m_uptake.reset(cloth.water().size());
   m_timeConstant = cloth.fabric().timeConstant;
   m_settled = m_hasNormals = false;
 }
@@ -61,14 +53,14 @@ void Absorption::apply(WetCloth& cloth, const Step& step) {
   const bool isUniform = !exposure.isFunction() && !exposure.isPerNode();
   const double uniformShare = isUniform ? share(exposure.at(0, btVector3(0, 0, 0), btVector3(0, 0, 0)), step) : 0;
   bool settled = true;
-  for (std::size_t i = 0; i < m_carry.size(); ++i) {
+  for (std::size_t i = 0; i < m_uptake.size(); ++i) {
     const btSoftBody::Node& node = cloth.body().m_nodes[static_cast<int>(i)];
     const double nodeShare = isUniform ? uniformShare : share(exposure.at(i, node.m_x, node.m_n), step);
     const bool isFull = takeUp(cloth, i, nodeShare);
     // A function may expose the node later; anything else stays as it is.
     settled = settled && (isFull || (nodeShare == 0 && !exposure.isFunction()));
   }
-  m_nodesVisited += static_cast<long long>(m_carry.size());
+  m_nodesVisited += static_cast<long long>(m_uptake.size());
   m_settled = settled;
   m_settledRevision = cloth.water().revision();
 }
@@ -85,22 +77,11 @@ double Absorption::share(double exposure, const Step& step) const {
 // Returns whether the node is full.
 bool Absorption::takeUp(WetCloth& cloth, std::size_t node, double share) {
   Water& water = cloth.water();
-  const double capacity = water.capacity(node);
-  const double before = water.held(node);
-  const double room = capacity - before - m_carry[node];
-  if (!(room > 0)) return true;
-  double taken = share * (m_parameters.law == Law::ramp ? capacity : room);
-  const bool fills = room - taken <= kNegligible * capacity;
-  if (fills) taken = room;
-  if (!(taken > 0)) return false;
-
-  // Many small portions would be lost to rounding against a large amount of water; the carry keeps them.
-  const double portion = taken + m_carry[node];
+  const double room = m_uptake.room(water, node);
+  const double wanted = share * (m_parameters.law == Law::ramp ? water.capacity(node) : room);
   const btVector3& arriving =
       m_parameters.conservesMomentum ? m_parameters.waterVelocity : cloth.body().m_nodes[static_cast<int>(node)].m_v;
-  water.absorb(node, portion, arriving.x(), arriving.y(), arriving.z());
-  m_carry[node] = fills ? 0 : portion - (water.held(node) - before);
-  return fills;
+  return m_uptake.soak(water, node, room, wanted, arriving);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -2,9 +2,9 @@
 
 #include "bullet_wetcloth/Effect.h"
 #include "bullet_wetcloth/effects/Exposure.h"
+#include "bullet_wetcloth/effects/NodeUptake.h"
 
 #include <cstddef>
-#include <vector>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
@@ -63,7 +63,7 @@ class Absorption : public Effect {
 
   Parameters m_parameters;
   double m_timeConstant = 0;
-  std::vector<double> m_carry;  // what each node took but its rounded water could not show yet [kg]
+  NodeUptake m_uptake;
   unsigned long long m_settledRevision = 0;
   bool m_settled = false;
   bool m_hasNormals = false;

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "bullet_wetcloth/Effect.h"
+#include "bullet_wetcloth/Settling.h"
+#include "bullet_wetcloth/effects/NodeUptake.h"
+#include "bullet_wetcloth/effects/WaterSurface.h"
+
+#include <optional>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Share of its free capacity that a node at this depth fills in dt, exact for any dt: 1 - exp(-dt / theta) below the
+/// surface, 0 at it and above (Basori et al. 2017, Eq. 2, with an exposure of 1 below).
+/// @param depth  below the surface [m], negative above it
+/// @param dt     [s]; @param timeConstant  theta [s]
+double immersionShare(double depth, double dt, double timeConstant);
+
+/// A cloth in a body of water: nodes below its surface soak by the fabric's own law, where they are in each step.
+///
+/// Idles while every node is full, and once nothing has been left to soak for 64 steps: until the surface, the
+/// cloth's water or its shape changes. A shape that sinks towards the surface is noticed before it is there, and any
+/// other change as Settling says.
+class Immersion : public Effect {
+ public:
+  struct Parameters {
+    /// The water; none: what the application has given to Bullet (btSoftBodyWorldInfo::water_normal, water_offset),
+    /// as it is in each step. The water arrives with the surface's velocity; its density does not matter here.
+    std::optional<WaterSurface> surface = {};
+  };
+
+  /// Throws std::invalid_argument naming the field and the value.
+  explicit Immersion(Parameters parameters);
+
+  const Parameters& parameters() const { return m_parameters; }
+  /// None: Bullet's own again. Throws std::invalid_argument, and then nothing changes.
+  void setSurface(const std::optional<WaterSurface>& surface);
+
+  const char* name() const override { return "Immersion"; }
+  Stage stage() const override { return Stage::sources; }
+  /// Throws std::invalid_argument when the effect is added and there is no water, neither its own nor Bullet's.
+  void attach(WetCloth& cloth) override;
+  void apply(WetCloth& cloth, const Step& step) override;
+
+  /// Nodes visited so far: for tests that count work. An idle effect adds none.
+  long long nodesVisited() const { return m_nodesVisited; }
+
+ private:
+  void noticeSurface(const std::optional<WaterSurface>& surface);
+  bool isIdle(const WetCloth& cloth, const Step& step);
+  void soak(WetCloth& cloth, const Step& step);
+  double reach(const btSoftBody& body) const;
+
+  Parameters m_parameters;
+  NodeUptake m_uptake;
+  Settling m_settling{Settling::DependsOn::waterAndShape};
+  double m_timeConstant = 0;
+  std::optional<WaterSurface> m_surface;  // in the last step
+  double m_reachLimit = 0;                // depth of the body's bounds at which an idle cloth above is looked at [m]
+  bool m_isFull = false;
+  unsigned long long m_fullRevision = 0;
+  long long m_nodesVisited = 0;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
