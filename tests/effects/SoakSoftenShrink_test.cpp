@@ -139,15 +139,15 @@ TEST_P(SoakSoftenShrink, PatchThereAndBack) {
   soak.setExposure([](const btVector3& x, const btVector3&) { return double(x.x()) < 0.5 ? 1.0 : 0.2; });
   settle(scene, 1200);
   EXPECT_GT(cloth.meanSaturation(), 0.9);
-  EXPECT_GT(largestDifference(stateOf(scene.body()), start), 0.03);
+  EXPECT_GT(largestDifference(stateOf(scene.body()), start), 0.01);
 
   soak.setExposure(0.0);
   dries = true;
   settle(scene, 1600);
   ASSERT_EQ(cloth.ledger().held, 0);
   EXPECT_EQ(linksOf(scene.body()).rest, before.rest);
-  // A millimetre on a metre: what is left of the swinging after 1600 steps, 30 times less than what it moved.
-  EXPECT_LT(largestDifference(stateOf(scene.body()), start), 1e-3);
+  // What is left of the swinging after 1600 steps, 20 times less than what the water did.
+  EXPECT_LT(largestDifference(stateOf(scene.body()), start), 5e-4);
   const long long swollen = swelling.linksVisited();
   const long long refreshes = cloth.masses().linkRefreshes();
   const long long damped = stiffness.linksVisited();
