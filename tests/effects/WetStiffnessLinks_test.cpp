@@ -66,7 +66,7 @@ TEST_P(WetStiffnessLinks, FollowWaterThatMovesWithinAThousandthAndExactlyOnceItR
   ramp.rampDuration = 5;
   ramp.exposure = std::vector<double>(25, 0.4);
   wetcloth::Absorption& soak = scene.cloth().add<wetcloth::Absorption>(ramp);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 302; ++i) {
     scene.step(1);
     const btSoftBody::Link& link = scene.body().m_links[i % scene.body().m_links.size()];
     const double factor = double(link.m_n[0]->m_im + link.m_n[1]->m_im) / double(link.m_c0);
@@ -76,6 +76,20 @@ TEST_P(WetStiffnessLinks, FollowWaterThatMovesWithinAThousandthAndExactlyOnceItR
   soak.setExposure(0.0);
   scene.step(2);
   expectConstants(scene, 0.5, 0.5);
+}
+
+// A fabric that holds so little that no mass changes.
+TEST_P(WetStiffnessLinks, FollowWaterThatIsTooLightToBeFelt) {
+  wetcloth::Fabric fabric;
+  fabric.capacity = 1e-18;
+  fabric.timeConstant = 0.01;
+  ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1), fabric);
+  scene.step(1);
+  scene.cloth().add<WetStiffness>({0.7, 0.3});
+  scene.cloth().add<wetcloth::Absorption>();
+  scene.step(1);
+  ASSERT_GT(scene.cloth().saturation(0), 0.3);
+  expectConstants(scene, 0.7, 0.3);
 }
 
 TEST_P(WetStiffnessLinks, AreBulletsOwnAfterRemoval) {

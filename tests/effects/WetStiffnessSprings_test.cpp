@@ -142,6 +142,23 @@ TEST_P(WetStiffnessSprings, FactorTheirMatrixSeldom) {
   EXPECT_EQ(effect.factorizations(), soaked);
 }
 
+// Water that weighs nothing to speak of, so that the stiffness alone calls for a new matrix; the old one would not
+// bound springs that are fifty times as stiff, and they would explode.
+TEST_P(WetStiffnessSprings, FactorTheirMatrixWhenOnlyTheStiffnessChanged) {
+  wetcloth::Fabric fabric;
+  fabric.capacity = 1e-6;
+  ClothScene scene(GetParam(), kEarthGravity, hangingRope(kLinks, kLength, kNodeMass), fabric);
+  HookeSprings& effect = scene.cloth().add<HookeSprings>(springs(kStiffness));
+  scene.cloth().add<WetStiffness>({50, 1});
+  settle(scene, 1);
+  const long long dry = effect.factorizations();
+  scene.cloth().setSaturation(1);
+  settle(scene, 1);
+  EXPECT_EQ(effect.factorizations(), dry + 1);
+  // float32 knows the length to 1e-8 m, the first link's extension is 3e-4 m.
+  EXPECT_NEAR(extension(scene.body(), 0) / (kLinks * kNodeMass * kGravity / (50 * kStiffness)), 1, 0.01);
+}
+
 TEST_P(WetStiffnessSprings, GoOnAfterACut) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));
   scene.wet().setLog({});
