@@ -31,9 +31,15 @@ void NodeMasses::remember() {
 void NodeMasses::commit(Water& water) {
   const bool changed = writeNodes(water);
   water.clearArrivals();
+  if (!changed && !m_linksAreStale) return;
+  // Reads the masses from the packed array: the nodes are several cache lines each.
+  if (m_body.m_links.size() > 0) {
+    const btSoftBody::Node* const nodes = &m_body.m_nodes[0];
+    const btScalar* const inverseMass = m_inverseMass.data();
+    writeLinks([=](const btSoftBody::Node* node) { return inverseMass[node - nodes]; });
+  }
   if (!changed) return;
   ++m_commits;
-  refreshLinks();
   if (m_body.m_clusters.size() > 0) refreshClusters();
   if (m_body.m_pose.m_bframe) refreshPose();
   if (m_deformable) refreshDeformable();
@@ -78,19 +84,38 @@ void NodeMasses::mixMomentum(btSoftBody::Node& node, const Water::Arrival& arriv
   if (m_deformable) node.m_vn += deltaVelocity;
 }
 
-// As btSoftBody::updateLinkConstants(), bit for bit, but reading the masses from the packed array: the nodes are
-// several cache lines each.
+void NodeMasses::setLinkStiffness(const std::vector<btScalar>& factors) {
+  m_linkStiffness = factors;
+  ++m_linkStiffnessRevision;
+  m_linksAreStale = true;
+}
+
+// Between commits an application may have changed a mass that we do not know yet, so this reads the nodes.
 void NodeMasses::refreshLinks() {
+  writeLinks([](const btSoftBody::Node* node) { return node->m_im; });
+}
+
+// As btSoftBody::updateLinkConstants(), bit for bit, while no link's stiffness is scaled.
+template <class InverseMassOf>
+void NodeMasses::writeLinks(InverseMassOf inverseMassOf) {
   ++m_linkRefreshes;
+  m_linksAreStale = false;
   if (m_body.m_links.size() == 0) return;
-  const btSoftBody::Node* const nodes = &m_body.m_nodes[0];
-  const btScalar* const inverseMass = m_inverseMass.data();
   btSoftBody::Link* link = &m_body.m_links[0];
   btSoftBody::Link* const end = link + m_body.m_links.size();
-  for (; link != end; ++link) {
-    const btScalar sum = inverseMass[link->m_n[0] - nodes] + inverseMass[link->m_n[1] - nodes];
+  if (m_linkStiffness.size() != static_cast<std::size_t>(m_body.m_links.size())) {
+    for (; link != end; ++link) {
+      const btScalar sum = inverseMassOf(link->m_n[0]) + inverseMassOf(link->m_n[1]);
+      const btScalar stiffness = link->m_material->m_kLST;
+      link->m_c0 = stiffness == 1 ? sum : sum / stiffness;
+    }
+    return;
+  }
+  const btScalar* factor = m_linkStiffness.data();
+  for (; link != end; ++link, ++factor) {
+    const btScalar sum = inverseMassOf(link->m_n[0]) + inverseMassOf(link->m_n[1]);
     const btScalar stiffness = link->m_material->m_kLST;
-    link->m_c0 = stiffness == 1 ? sum : sum / stiffness;
+    link->m_c0 = sum / std::min(stiffness * *factor, std::max(stiffness, btScalar(1)));
   }
 }
 

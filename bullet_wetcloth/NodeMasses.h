@@ -27,8 +27,18 @@ class NodeMasses {
   /// application changed since the last commit takes that mass as its new dry mass; a node it pinned stays pinned.
   void commit(Water& water);
 
-  /// Recomputes what Bullet derived from node masses and link materials for each link.
+  /// Recomputes what Bullet derived from node masses and link materials for each link, with the factors below.
   void refreshLinks();
+
+  /// Scales the stiffness of each link, in the order of btSoftBody::m_links, without touching its material, which other
+  /// bodies may share. Each factor finite and > 0; empty: none, and then all is as if this had never been called. Takes
+  /// effect with the next commit() or refreshLinks(), and is left aside while there is not one factor per link.
+  ///
+  /// In a position-based world a factor above 1 raises a stiffness to 1 at most: from 2 on the links would explode.
+  void setLinkStiffness(const std::vector<btScalar>& factors);
+  const std::vector<btScalar>& linkStiffness() const { return m_linkStiffness; }
+  /// Grows with every setLinkStiffness().
+  unsigned long long linkStiffnessRevision() const { return m_linkStiffnessRevision; }
 
   /// How often masses and link constants were written: for tests that count work.
   long long commits() const { return m_commits; }
@@ -36,6 +46,8 @@ class NodeMasses {
 
  private:
   bool writeNodes(Water& water);
+  template <class InverseMassOf>
+  void writeLinks(InverseMassOf inverseMassOf);
   void mixMomentum(btSoftBody::Node& node, const Water::Arrival& arrival, double inverseMass) const;
   void refreshClusters();
   void refreshPose();
@@ -44,6 +56,9 @@ class NodeMasses {
   btSoftBody& m_body;
   bool m_deformable;
   std::vector<btScalar> m_inverseMass;  // what we last wrote, packed for the link loop
+  std::vector<btScalar> m_linkStiffness;
+  unsigned long long m_linkStiffnessRevision = 0;
+  bool m_linksAreStale = false;
   long long m_commits = 0;
   long long m_linkRefreshes = 0;
 };

@@ -60,6 +60,7 @@ void HookeSprings::attach(WetCloth& cloth) {
     m_springs[k].b = static_cast<int>(link.m_n[1] - &body.m_nodes[0]);
     m_springs[k].stiffness = stiffnessOf(link, k);
   }
+  m_stiffnessRevision = 0;
   m_nodes.resize(static_cast<std::size_t>(body.m_nodes.size()));
   m_solver->reset(m_nodes.size());
 }
@@ -67,6 +68,19 @@ void HookeSprings::attach(WetCloth& cloth) {
 double HookeSprings::stiffnessOf(const btSoftBody::Link& link, std::size_t index) const {
   if (index < m_parameters.perLink.size()) return m_parameters.perLink[index];
   return link.m_bbending ? m_parameters.bendingStiffness : m_parameters.stiffness;
+}
+
+void HookeSprings::scaleStiffness(WetCloth& cloth) {
+  const NodeMasses& masses = cloth.masses();
+  if (masses.linkStiffnessRevision() == m_stiffnessRevision) return;
+  m_stiffnessRevision = masses.linkStiffnessRevision();
+  const std::vector<btScalar>& factors = masses.linkStiffness();
+  const bool isScaled = factors.size() == m_springs.size();
+  for (std::size_t k = 0; k < m_springs.size(); ++k) {
+    const double own = stiffnessOf(cloth.body().m_links[static_cast<int>(k)], k);
+    m_springs[k].stiffness = isScaled ? own * static_cast<double>(factors[k]) : own;
+  }
+  m_solver->noteStiffness(m_springs);
 }
 
 // A link that was cut copies its neighbour's material, ours: it gets the body's first one back in the end.
@@ -95,6 +109,7 @@ void HookeSprings::detach(WetCloth& cloth) {
 }
 
 void HookeSprings::apply(WetCloth& cloth, const Step& step) {
+  scaleStiffness(cloth);
   gather(cloth.body(), step);
   followAnchors(cloth.body(), step);
   m_solver->solve(m_springs, m_nodes, step.dt, m_parameters.iterations);

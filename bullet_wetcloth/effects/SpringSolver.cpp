@@ -9,6 +9,7 @@ inline namespace WETCLOTH_PRECISION {
 namespace {
 
 constexpr double kMassChange = 0.02;  // an error e of A's masses leaves e^iterations of the motion unresolved
+constexpr double kStiffnessChange = 0.05;
 
 // K (|b - a| - l0) along b - a, the force on a.
 std::array<double, 3> pull(const std::array<double, 3>& a, const std::array<double, 3>& b, const Spring& spring) {
@@ -28,7 +29,17 @@ void SpringSolver::reset(std::size_t nodeCount) {
   m_force.resize(nodeCount);
   m_row.assign(nodeCount, -1);
   m_factoredMass.assign(nodeCount, 0);
+  m_factoredStiffness.clear();
   m_factoredDt = 0;
+}
+
+void SpringSolver::noteStiffness(const std::vector<Spring>& springs) {
+  const auto isClose = [](const Spring& spring, double factored) {
+    return std::fabs(spring.stiffness - factored) <= kStiffnessChange * factored;
+  };
+  if (!std::equal(springs.begin(), springs.end(), m_factoredStiffness.begin(), m_factoredStiffness.end(), isClose)) {
+    m_factoredDt = 0;
+  }
 }
 
 void SpringSolver::solve(const std::vector<Spring>& springs, std::vector<SpringNode>& nodes, double dt,
@@ -103,6 +114,9 @@ void SpringSolver::factor(const std::vector<Spring>& springs, const std::vector<
     m_factoredMass[i] = nodes[i].mass;
     if (unknown[i] >= 0) entries.emplace_back(unknown[i], unknown[i], nodes[i].mass / (dt * dt));
   }
+  m_factoredStiffness.resize(springs.size());
+  std::transform(springs.begin(), springs.end(), m_factoredStiffness.begin(),
+                 [](const Spring& spring) { return spring.stiffness; });
   for (const Spring& spring : springs) {
     const int a = unknown[static_cast<std::size_t>(spring.a)];
     const int b = unknown[static_cast<std::size_t>(spring.b)];

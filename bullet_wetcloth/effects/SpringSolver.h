@@ -34,7 +34,8 @@ struct SpringNode {
 /// x <- x - A^-1 grad E(x) with A = M / dt^2 + L, L the springs' weighted Laplacian. A bounds the Hessian of E from
 /// above, so E never rises, for any stiffness and step (Liu et al. 2013; Bouaziz et al. 2014); grad E uses the true
 /// masses and forces, so the state at rest does not depend on the number of iterations. A is factored only when the
-/// step, the free nodes, or a mass by more than 2 % has changed.
+/// step, the free nodes, a mass by more than 2 %, or a stiffness by more than 5 % has changed; A then bounds the
+/// Hessian to 5 %, and E still never rises (that takes a bound of half the Hessian).
 class SpringSolver {
  public:
   /// Starts over with a net of that many nodes; forgets the factorisation.
@@ -42,6 +43,9 @@ class SpringSolver {
 
   /// Fills velocityChange of the free nodes. Does not allocate while nothing has to be factored anew.
   void solve(const std::vector<Spring>& springs, std::vector<SpringNode>& nodes, double dt, int iterations);
+
+  /// A spring's stiffness has changed since the last call of solve().
+  void noteStiffness(const std::vector<Spring>& springs);
 
   /// Force of all springs on one node at the end of the last step [N].
   std::array<double, 3> springForce(const std::vector<Spring>& springs, std::size_t node) const;
@@ -62,6 +66,7 @@ class SpringSolver {
   std::vector<Vector> m_work;       // in the order of the factor's rows
   std::vector<int> m_row;           // of a node in the factor, -1 when fixed
   std::vector<double> m_factoredMass;
+  std::vector<double> m_factoredStiffness;
   double m_factoredDt = 0;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> m_factor;
   Eigen::SparseMatrix<double> m_lower;  // L of L D L^T without its unit diagonal

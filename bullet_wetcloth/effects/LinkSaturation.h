@@ -1,0 +1,49 @@
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+class WetCloth;
+
+/// The saturation of each link of a cloth: the mean of its two nodes', each in [0, 1]; a node that was filled above its
+/// capacity counts as saturated. A member of effects whose law depends on it.
+///
+/// While water moves the values lag behind by at most `kStep`, so that a slow change costs little; once a step has
+/// passed in which no water moved they are exact. So they depend on the water alone, not on how it came there.
+class LinkSaturation {
+ public:
+  static constexpr double kStep = 1e-3;
+
+  /// Takes over the body's links, and the water as it is. O(links).
+  void reset(const WetCloth& cloth);
+
+  /// Whether a value changed. Visits no link while none does, and no node while no water moves.
+  bool update(const WetCloth& cloth);
+
+  std::size_t size() const { return m_links.size(); }
+  double operator[](std::size_t link) const {
+    return (m_saturation[m_links[link].a] + m_saturation[m_links[link].b]) / 2;
+  }
+
+ private:
+  struct Ends {
+    std::size_t a;
+    std::size_t b;
+  };
+
+  double largestChange(const WetCloth& cloth) const;
+  void take(const WetCloth& cloth);
+
+  std::vector<Ends> m_links;
+  std::vector<double> m_saturation;  // of each node, as last taken
+  unsigned long long m_revision = 0;
+  bool m_lags = false;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

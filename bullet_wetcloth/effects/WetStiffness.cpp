@@ -1,0 +1,135 @@
+#include "bullet_wetcloth/effects/WetStiffness.h"
+
+#include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/effects/HookeSprings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+void requireFactor(const std::string& field, double value) {
+  if (!(value >= 0.001 && value <= 1000)) rejectValue(field, value, "in [0.001, 1000]");
+}
+
+void requireDamping(double dry, double wet) {
+  requireNotNegative("WetStiffness.dryDamping", dry);
+  requireNotNegative("WetStiffness.wetDamping", wet);
+}
+
+template <class E>
+bool hasAnother(const WetCloth& cloth, const Effect* self) {
+  return std::any_of(cloth.effects().begin(), cloth.effects().end(), [self](const auto& effect) {
+    return effect.get() != self && dynamic_cast<const E*>(effect.get()) != nullptr;
+  });
+}
+
+}  // namespace
+
+double wetStiffnessFactor(double saturation, double atSaturation) { return 1 + (atSaturation - 1) * saturation; }
+
+double dampingShare(double rate, double dt) { return -std::expm1(-rate * dt); }
+
+btVector3 dampingImpulse(const btVector3& ab, const btVector3& velocity, double inverseMasses, double share) {
+  const double squared = static_cast<double>(ab.length2());
+  if (!(squared > 0 && inverseMasses > 0)) return btVector3(0, 0, 0);
+  return ab * static_cast<btScalar>(-share * static_cast<double>(velocity.dot(ab)) / (squared * inverseMasses));
+}
+
+WetStiffness::WetStiffness(Parameters parameters) : m_parameters(parameters) {
+  requireFactor("WetStiffness.wetStretch", m_parameters.wetStretch);
+  requireFactor("WetStiffness.wetBending", m_parameters.wetBending);
+  requireDamping(m_parameters.dryDamping, m_parameters.wetDamping);
+}
+
+void WetStiffness::setDamping(double dry, double wet) {
+  requireDamping(dry, wet);
+  m_parameters.dryDamping = dry;
+  m_parameters.wetDamping = wet;
+  m_sharesDt = 0;
+}
+
+void WetStiffness::attach(WetCloth& cloth) {
+  const int links = cloth.body().m_links.size();
+  if (links == 0) rejectValue("WetStiffness: body.m_links.size()", 0, "at least 1: stiffness is that of links");
+  if (hasAnother<WetStiffness>(cloth, this)) reject("WetStiffness", "the cloth has one already");
+  if (scales() && cloth.isInDeformableWorld() && !hasAnother<HookeSprings>(cloth, this)) {
+    reject("WetStiffness",
+           "in the deformable world Bullet's springs have one stiffness for all links and read none per link; add "
+           "HookeSprings first, or set wetStretch and wetBending to 1");
+  }
+  m_saturation.reset(cloth);
+  m_shares.resize(m_saturation.size());
+  m_factors.resize(scales() ? m_saturation.size() : 0);
+  m_sharesDt = 0;
+  m_factorsAreStale = true;
+}
+
+void WetStiffness::detach(WetCloth& cloth) {
+  if (!scales()) return;
+  cloth.masses().setLinkStiffness({});
+  cloth.masses().refreshLinks();
+}
+
+void WetStiffness::apply(WetCloth& cloth, const Step& step) {
+  if (!scales() && !damps()) return;
+  const btSoftBody& body = cloth.body();
+  const bool constantsWereReset = m_constantsWillBeReset && !body.m_bUpdateRtCst;
+  m_constantsWillBeReset = body.m_bUpdateRtCst;
+  const bool changed = m_saturation.update(cloth);
+  if (scales() && (changed || m_factorsAreStale)) {
+    scaleLinks(cloth);
+  } else if (scales() && constantsWereReset) {
+    cloth.masses().refreshLinks();
+  }
+  if (!damps()) return;
+  if (changed || step.dt != m_sharesDt) updateShares(step.dt);
+  if (body.isActive()) damp(cloth);
+}
+
+void WetStiffness::scaleLinks(WetCloth& cloth) {
+  const btSoftBody& body = cloth.body();
+  for (std::size_t k = 0; k < m_factors.size(); ++k) {
+    const bool isBending = body.m_links[static_cast<int>(k)].m_bbending != 0;
+    const double wet = isBending ? m_parameters.wetBending : m_parameters.wetStretch;
+    m_factors[k] = static_cast<btScalar>(wetStiffnessFactor(m_saturation[k], wet));
+  }
+  m_linksVisited += static_cast<long long>(m_factors.size());
+  m_factorsAreStale = false;
+  cloth.masses().setLinkStiffness(m_factors);
+  // The commit of this step, if there is one, writes the constants with the new masses.
+  if (!cloth.water().movedSinceCommit()) cloth.masses().refreshLinks();
+}
+
+void WetStiffness::updateShares(double dt) {
+  const double dry = m_parameters.dryDamping;
+  const double wet = m_parameters.wetDamping;
+  for (std::size_t k = 0; k < m_shares.size(); ++k) {
+    m_shares[k] = dampingShare(dry + (wet - dry) * m_saturation[k], dt);
+  }
+  m_sharesDt = dt;
+}
+
+// One link after the other, each seeing what those before it left, so that no step is too large.
+void WetStiffness::damp(WetCloth& cloth) {
+  btSoftBody& body = cloth.body();
+  for (std::size_t k = 0; k < m_shares.size(); ++k) {
+    if (m_shares[k] == 0) continue;
+    const btSoftBody::Link& link = body.m_links[static_cast<int>(k)];
+    btSoftBody::Node& a = *link.m_n[0];
+    btSoftBody::Node& b = *link.m_n[1];
+    const double inverseMasses = static_cast<double>(a.m_im) + static_cast<double>(b.m_im);
+    const btVector3 impulse = dampingImpulse(b.m_x - a.m_x, b.m_v - a.m_v, inverseMasses, m_shares[k]);
+    cloth.push(a, impulse * -a.m_im);
+    cloth.push(b, impulse * b.m_im);
+  }
+  m_linksVisited += static_cast<long long>(m_shares.size());
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

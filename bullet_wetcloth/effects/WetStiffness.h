@@ -1,0 +1,89 @@
+#pragma once
+
+#include "bullet_wetcloth/Effect.h"
+#include "bullet_wetcloth/effects/LinkSaturation.h"
+
+#include <LinearMath/btVector3.h>
+
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Factor on the stiffness of a link, linear in its saturation: 1 + (atSaturation - 1) saturation.
+/// @param saturation  [0, 1]; @param atSaturation  the factor at saturation 1, > 0
+double wetStiffnessFactor(double saturation, double atSaturation);
+
+/// Share of the relative velocity along a link that is lost in dt, exact for any dt: 1 - exp(-rate dt), from
+/// du/dt = -rate u. @param rate [1/s], >= 0; @param dt [s]
+double dampingShare(double rate, double dt);
+
+/// Impulse on node b of a link, and the opposite on node a, that takes `share` of the nodes' relative velocity along it
+/// [kg m/s]: share u (b - a) / (|b - a|^2 (1/m_a + 1/m_b)) with u = (v_a - v_b) . (b - a). A partly inelastic impact:
+/// energy falls by (1 - (1 - share)^2) of that of the relative motion, and never grows for a share in [0, 1]. Zero when
+/// the ends coincide or neither can move. @param ab  b - a [m]; @param velocity  v_b - v_a [m/s];
+/// @param inverseMasses  1/m_a + 1/m_b [1/kg], 0 for a pinned end
+btVector3 dampingImpulse(const btVector3& ab, const btVector3& velocity, double inverseMasses, double share);
+
+/// What water does to the stiffness of the links, stretching and bending, and to the damping along them. Each link goes
+/// by its own saturation, the mean of its nodes', and no material is touched: other bodies may share it.
+///
+/// What a factor on the stiffness means depends on what holds the cloth together:
+/// - HookeSprings, in any world: the springs' K [N/m] is multiplied. Add the two in any order, except in the deformable
+///   world.
+/// - Bullet's position-based links: the share kLST of its error that a link takes back in each of
+///   btSoftBody::m_cfg.piterations is multiplied, up to 1. One link of stiffness k that holds a weight sags by
+///   g dt^2 (1 - k)^n / (1 - (1 - k)^n) after n iterations, whatever the weight: at k = 0.5 and 10 iterations a
+///   thousandth of what free fall does in the step. So there it softens a cloth of few iterations, or a net in which
+///   each link waits for many others, and is no material constant.
+/// - Bullet's own springs in the deformable world (btDeformableMassSpringForce) have one stiffness for all links and
+///   read none per link: attach() refuses factors other than 1 there, unless HookeSprings were added before.
+///
+/// Damping acts in every world, HookeSprings or not.
+class WetStiffness : public Effect {
+ public:
+  struct Parameters {
+    double wetStretch = 0.8;  ///< factor on the stiffness of structural links at saturation, [0.001, 1000]; a guess
+    double wetBending = 0.5;  ///< factor on that of links marked as bending at saturation, [0.001, 1000]; a guess
+    double dryDamping = 0;    ///< rate at which relative velocity along a dry link decays [1/s], [0, inf)
+    double wetDamping = 0;    ///< the same along a saturated one [1/s], [0, inf); linear in saturation between them
+  };
+
+  /// Throws std::invalid_argument naming the field and the value.
+  explicit WetStiffness(Parameters parameters);
+
+  const Parameters& parameters() const { return m_parameters; }
+  /// Throws std::invalid_argument, and then nothing changes.
+  void setDamping(double dry, double wet);
+
+  const char* name() const override { return "WetStiffness"; }
+  Stage stage() const override { return Stage::material; }
+  /// Throws std::invalid_argument when the body has no links, the cloth has a WetStiffness already, or it is in the
+  /// deformable world, has no HookeSprings yet, and a factor is not 1.
+  void attach(WetCloth& cloth) override;
+  /// Gives the links the constants that Bullet would compute.
+  void detach(WetCloth& cloth) override;
+  void apply(WetCloth& cloth, const Step& step) override;
+
+  /// Links visited so far: for tests that count work. A settled cloth without damping adds none.
+  long long linksVisited() const { return m_linksVisited; }
+
+ private:
+  bool scales() const { return m_parameters.wetStretch != 1 || m_parameters.wetBending != 1; }
+  bool damps() const { return m_parameters.dryDamping > 0 || m_parameters.wetDamping > 0; }
+  void scaleLinks(WetCloth& cloth);
+  void updateShares(double dt);
+  void damp(WetCloth& cloth);
+
+  Parameters m_parameters;
+  LinkSaturation m_saturation;
+  std::vector<btScalar> m_factors;  // on the stiffness of each link; empty when none is scaled
+  std::vector<double> m_shares;     // of the relative velocity along each link, lost in a step
+  double m_sharesDt = 0;            // the step that they were computed for, 0: none
+  bool m_factorsAreStale = true;
+  bool m_constantsWillBeReset = false;  // by Bullet, in the substep that we have just seen begin
+  long long m_linksVisited = 0;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
