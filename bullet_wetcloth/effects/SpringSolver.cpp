@@ -127,41 +127,20 @@ void SpringSolver::factor(const std::vector<Spring>& springs, const std::vector<
   Eigen::SparseMatrix<double> matrix(rows, rows);
   matrix.setFromTriplets(entries.begin(), entries.end());
   m_factor.compute(matrix);
-  m_lower = m_factor.matrixL().nestedExpression();
-  m_inverseDiagonal = m_factor.vectorD().cwiseInverse();
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    m_row[i] = unknown[i] >= 0 ? m_factor.permutationP().indices()[unknown[i]] : -1;
+    m_row[i] = unknown[i] >= 0 ? m_factor.row(unknown[i]) : -1;
   }
   m_work.resize(static_cast<std::size_t>(rows));
   m_factoredDt = dt;
   ++m_factorizations;
 }
 
-// positions += A^-1 force on the free nodes. Eigen's own solve() allocates, and goes through the factor once for
-// each of x, y and z.
+// positions += A^-1 force on the free nodes.
 void SpringSolver::applyInverse() {
   for (std::size_t i = 0; i < m_row.size(); ++i) {
     if (m_row[i] >= 0) m_work[static_cast<std::size_t>(m_row[i])] = m_force[i];
   }
-  using Column = Eigen::SparseMatrix<double>::InnerIterator;
-  const Eigen::Index rows = m_lower.outerSize();
-  for (Eigen::Index j = 0; j < rows; ++j) {
-    const Vector known = m_work[static_cast<std::size_t>(j)];
-    for (Column entry(m_lower, j); entry; ++entry) {
-      if (entry.row() == j) continue;
-      Vector& target = m_work[static_cast<std::size_t>(entry.row())];
-      for (std::size_t c = 0; c < 3; ++c) target[c] -= entry.value() * known[c];
-    }
-  }
-  for (Eigen::Index j = rows - 1; j >= 0; --j) {
-    Vector& target = m_work[static_cast<std::size_t>(j)];
-    for (std::size_t c = 0; c < 3; ++c) target[c] *= m_inverseDiagonal[j];
-    for (Column entry(m_lower, j); entry; ++entry) {
-      if (entry.row() == j) continue;
-      const Vector& known = m_work[static_cast<std::size_t>(entry.row())];
-      for (std::size_t c = 0; c < 3; ++c) target[c] -= entry.value() * known[c];
-    }
-  }
+  m_factor.solveInPlace(m_work);
   for (std::size_t i = 0; i < m_row.size(); ++i) {
     if (m_row[i] < 0) continue;
     for (std::size_t c = 0; c < 3; ++c) m_positions[i][c] += m_work[static_cast<std::size_t>(m_row[i])][c];

@@ -1,9 +1,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Precision.h"
-
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include "bullet_wetcloth/effects/SparseFactor.h"
 
 #include <array>
 #include <cstddef>
@@ -68,9 +66,7 @@ class SpringSolver {
   std::vector<double> m_factoredMass;
   std::vector<double> m_factoredStiffness;
   double m_factoredDt = 0;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> m_factor;
-  Eigen::SparseMatrix<double> m_lower;  // L of L D L^T without its unit diagonal
-  Eigen::VectorXd m_inverseDiagonal;    // 1 / D
+  SparseFactor m_factor;
   long long m_factorizations = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "bullet_wetcloth/mesh/RestMesh.h"
 
+#include "bullet_wetcloth/mesh/TriangleArea.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,16 +16,6 @@ int indexOf(const btSoftBody& body, const btSoftBody::Node* node) { return stati
 std::pair<int, int> ends(const RestMesh::Edge& edge) { return {edge.a, edge.b}; }
 
 bool isBefore(const RestMesh::Edge& edge, const RestMesh::Edge& other) { return ends(edge) < ends(other); }
-
-// Heron's formula in Kahan's order, which keeps needles accurate (Kahan 2014, "Miscalculating area and angles of a
-// needle-like triangle").
-double triangleArea(double a, double b, double c) {
-  if (a < b) std::swap(a, b);
-  if (b < c) std::swap(b, c);
-  if (a < b) std::swap(a, b);
-  const double product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
-  return product > 0 ? std::sqrt(product) / 4 : 0;
-}
 
 }  // namespace
 

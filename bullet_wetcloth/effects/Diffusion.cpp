@@ -1,0 +1,147 @@
+#include "bullet_wetcloth/effects/Diffusion.h"
+
+#include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/effects/DiffusionSolver.h"
+#include "bullet_wetcloth/effects/EdgeFlow.h"
+#include "bullet_wetcloth/mesh/IntrinsicDelaunay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+constexpr double kMostSubsteps = 1000;
+constexpr double kLargestExponent = 100;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+std::vector<WeightedEdge> diffusionEdges(const RestMesh& mesh, const Diffusion::Parameters& parameters,
+                                         const std::vector<double>& warpCoordinate) {
+  const double warp = parameters.warpDiffusivity;
+  const double weft = parameters.weftDiffusivity;
+  std::vector<WeightedEdge> edges =
+      delaunayWeights(warp == weft ? measuredTriangles(mesh) : orthotropicTriangles(mesh, warpCoordinate, warp, weft));
+  const double mean = std::sqrt(warp) * std::sqrt(weft);
+  for (WeightedEdge& edge : edges) edge.weight *= mean;
+  return edges;
+}
+
+}  // namespace
+
+double relativeDiffusivity(double saturation, double exponent) { return std::pow(saturation, exponent); }
+
+double diffusionPotential(double saturation, double exponent) {
+  if (exponent == 0) return saturation;
+  if (exponent == 1) return saturation * saturation / 2;
+  return saturation * std::pow(saturation, exponent) / (exponent + 1);
+}
+
+Diffusion::Diffusion(Parameters parameters)
+    : m_parameters(std::move(parameters)),
+      m_flow(std::make_unique<EdgeFlow>()),
+      m_solver(std::make_unique<DiffusionSolver>()) {
+  requirePositive("Diffusion.warpDiffusivity", m_parameters.warpDiffusivity);
+  requirePositive("Diffusion.weftDiffusivity", m_parameters.weftDiffusivity);
+  if (!(m_parameters.exponent >= 0 && m_parameters.exponent <= kLargestExponent)) {
+    rejectValue("Diffusion.exponent", m_parameters.exponent, "in [0, 100]");
+  }
+  requireFinite("Diffusion.warp", m_parameters.warp);
+  if (!(m_parameters.warp.length2() > 0)) reject("Diffusion.warp", "must not be of length 0");
+  if (!(m_parameters.tolerance > 0 && m_parameters.tolerance < 1)) {
+    rejectValue("Diffusion.tolerance", m_parameters.tolerance, "in (0, 1)");
+  }
+}
+
+Diffusion::~Diffusion() = default;
+
+long long Diffusion::solves() const { return m_solver->solves(); }
+long long Diffusion::factorizations() const { return m_solver->factorizations(); }
+long long Diffusion::iterations() const { return m_solver->iterations(); }
+
+void Diffusion::attach(WetCloth& cloth) {
+  if (cloth.body().m_faces.size() == 0) {
+    reject("Diffusion", "the body has no faces, and water spreads over triangles: a rope has none");
+  }
+  rememberWarp(cloth);
+  m_flow->reset(cloth.restMesh(), diffusionEdges(cloth.restMesh(), m_parameters, m_warpCoordinate));
+  m_solver->reset(m_flow->nodeCount());
+  m_potential.assign(m_flow->nodeCount(), 0);
+  m_fluxes.assign(m_flow->edges().size(), 0);
+  m_substepFluxes.assign(m_flow->edges().size(), 0);
+  m_settling.restart();
+}
+
+// How far each node lies along the warp. A node made by a cut lies where its neighbours do.
+void Diffusion::rememberWarp(WetCloth& cloth) {
+  const btSoftBody& body = cloth.body();
+  const std::size_t known = m_warpCoordinate.size();
+  m_warpCoordinate.resize(static_cast<std::size_t>(body.m_nodes.size()), 0);
+  const btVector3 warp = m_parameters.warp.normalized();
+  for (std::size_t i = known; i < m_warpCoordinate.size(); ++i) {
+    if (known == 0) {
+      m_warpCoordinate[i] = static_cast<double>(warp.dot(body.m_nodes[static_cast<int>(i)].m_x));
+      continue;
+    }
+    double sum = 0;
+    int count = 0;
+    for (const int neighbour : cloth.restMesh().neighbours(i)) {
+      if (index(neighbour) >= i) continue;
+      sum += m_warpCoordinate[index(neighbour)];
+      ++count;
+    }
+    m_warpCoordinate[i] = count > 0 ? sum / count : 0;
+  }
+}
+
+void Diffusion::apply(WetCloth& cloth, const Step& step) {
+  if (cloth.water().totalCapacity() != m_totalCapacity) m_settling.restart();
+  if (m_settling.isSettled(cloth, step)) return;
+  m_totalCapacity = cloth.water().totalCapacity();
+  if (m_flow->load(cloth.water())) {
+    m_solver->forgetFactor();
+    m_longestSubstep = longestExplicitStep(m_flow->edges(), m_flow->capacities());
+  }
+  if (m_parameters.method == Method::explicitSubsteps) {
+    flowInSubsteps(step.dt);
+  } else {
+    setPotential();
+    const auto& edges = m_flow->edges();
+    const auto& capacities = m_flow->capacities();
+    if (m_parameters.method == Method::factored) {
+      m_solver->solveFactored(edges, capacities, m_potential, step.dt, m_fluxes);
+    } else {
+      m_solver->solveIteratively(edges, capacities, m_potential, step.dt, m_parameters.tolerance, m_fluxes);
+    }
+    m_flow->limit(m_fluxes);
+  }
+  m_flow->commit(cloth, m_fluxes);
+  m_nodesVisited += static_cast<long long>(m_flow->nodeCount());
+  // A short step moves little though much is left to move.
+  m_settling.note(cloth, step, m_flow->moved() / std::min(step.dt, 1.0));
+}
+
+void Diffusion::setPotential() {
+  for (std::size_t i = 0; i < m_potential.size(); ++i) {
+    m_potential[i] = diffusionPotential(m_flow->saturation(i), m_parameters.exponent);
+  }
+}
+
+void Diffusion::flowInSubsteps(double dt) {
+  const double count = std::clamp(std::ceil(dt / m_longestSubstep), 1.0, kMostSubsteps);
+  std::fill(m_fluxes.begin(), m_fluxes.end(), 0);
+  for (int substep = 0; substep < static_cast<int>(count); ++substep) {
+    setPotential();
+    explicitFluxes(m_flow->edges(), m_potential, dt / count, m_substepFluxes);
+    m_flow->limit(m_substepFluxes);
+    for (std::size_t e = 0; e < m_fluxes.size(); ++e) m_fluxes[e] += m_substepFluxes[e];
+    ++m_substeps;
+  }
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,122 @@
+#include "bullet_wetcloth/effects/Seepage.h"
+
+#include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/effects/EdgeFlow.h"
+#include "bullet_wetcloth/mesh/IntrinsicDelaunay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+constexpr double kEarthGravity = 9.81;  // [m/s^2]
+constexpr double kMostSubsteps = 64;
+constexpr double kLargestExponent = 100;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+// With the nodes' conductivities known.
+double upwindFlow(double conductance, double speed, double first, double second, double drop) {
+  return conductance * speed * (drop > 0 ? first : second) * drop;
+}
+
+}  // namespace
+
+double relativeConductivity(double saturation, double exponent) {
+  if (exponent == 1) return saturation;
+  if (exponent == 3) return saturation * saturation * saturation;
+  return std::pow(saturation, exponent);
+}
+
+double seepageFlow(double conductance, double speed, double exponent, double firstSaturation, double secondSaturation,
+                   double drop) {
+  return upwindFlow(conductance, speed, relativeConductivity(firstSaturation, exponent),
+                    relativeConductivity(secondSaturation, exponent), drop);
+}
+
+Seepage::Seepage(Parameters parameters) : m_parameters(parameters), m_flow(std::make_unique<EdgeFlow>()) {
+  requireNotNegative("Seepage.speed", m_parameters.speed);
+  if (!(m_parameters.exponent >= 1 && m_parameters.exponent <= kLargestExponent)) {
+    rejectValue("Seepage.exponent", m_parameters.exponent, "in [1, 100]");
+  }
+}
+
+Seepage::~Seepage() = default;
+
+void Seepage::attach(WetCloth& cloth) {
+  if (cloth.body().m_faces.size() == 0) {
+    reject("Seepage", "the body has no faces, and water seeps along triangles: a rope has none");
+  }
+  m_flow->reset(cloth.restMesh(), delaunayWeights(measuredTriangles(cloth.restMesh())));
+  for (auto* array : {&m_depths, &m_conductivity, &m_outflow}) array->assign(m_flow->nodeCount(), 0);
+  for (auto* array : {&m_fluxes, &m_substepFluxes}) array->assign(m_flow->edges().size(), 0);
+  m_settling.restart();
+}
+
+void Seepage::apply(WetCloth& cloth, const Step& step) {
+  if (cloth.water().totalCapacity() != m_totalCapacity) m_settling.restart();
+  if (m_settling.isSettled(cloth, step)) return;
+  m_totalCapacity = cloth.water().totalCapacity();
+  m_flow->load(cloth.water());
+  measureDepths(cloth, step);
+  const double speed = m_parameters.speed * static_cast<double>(step.gravity.length()) / kEarthGravity;
+  flow(std::isfinite(speed) ? speed : 0, step.dt);
+  m_flow->commit(cloth, m_fluxes);
+  m_nodesVisited += static_cast<long long>(m_flow->nodeCount());
+  // A short step moves little though much is left to move.
+  m_settling.note(cloth, step, m_flow->moved() / std::min(step.dt, 1.0));
+}
+
+void Seepage::measureDepths(const WetCloth& cloth, const Step& step) {
+  const btSoftBody& body = cloth.body();
+  const btVector3 down = step.gravity.fuzzyZero() ? btVector3(0, 0, 0) : step.gravity.normalized();
+  // From node 0, so that a cloth far from the origin keeps its precision.
+  const btVector3& origin = body.m_nodes[0].m_x;
+  for (std::size_t i = 0; i < m_depths.size(); ++i) {
+    const double depth = static_cast<double>(down.dot(body.m_nodes[static_cast<int>(i)].m_x - origin));
+    m_depths[i] = std::isfinite(depth) ? depth : 0;
+  }
+}
+
+// So many that no wave, of speed n v at most, passes a node in one of them.
+double Seepage::substepCount(double speed, double dt) {
+  std::fill(m_outflow.begin(), m_outflow.end(), 0);
+  for (const WeightedEdge& edge : m_flow->edges()) {
+    const double drop = m_depths[index(edge.b)] - m_depths[index(edge.a)];
+    m_outflow[index(drop > 0 ? edge.a : edge.b)] += edge.weight * std::fabs(drop);
+  }
+  double fastest = 0;
+  for (std::size_t i = 0; i < m_outflow.size(); ++i) {
+    fastest = std::max(fastest, m_outflow[i] / m_flow->capacities()[i]);
+  }
+  return std::clamp(std::ceil(dt * speed * m_parameters.exponent * fastest), 1.0, kMostSubsteps);
+}
+
+void Seepage::flow(double speed, double dt) {
+  const double count = substepCount(speed, dt);
+  const auto& edges = m_flow->edges();
+  std::fill(m_fluxes.begin(), m_fluxes.end(), 0);
+  for (int substep = 0; substep < static_cast<int>(count); ++substep) {
+    for (std::size_t i = 0; i < m_conductivity.size(); ++i) {
+      m_conductivity[i] = relativeConductivity(m_flow->saturation(i), m_parameters.exponent);
+    }
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const std::size_t a = index(edges[e].a);
+      const std::size_t b = index(edges[e].b);
+      const double flow =
+          upwindFlow(edges[e].weight, speed, m_conductivity[a], m_conductivity[b], m_depths[b] - m_depths[a]);
+      m_substepFluxes[e] = dt / count * flow;
+    }
+    m_flow->limit(m_substepFluxes);
+    for (std::size_t e = 0; e < edges.size(); ++e) m_fluxes[e] += m_substepFluxes[e];
+    ++m_substeps;
+  }
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
