@@ -12,12 +12,13 @@ class WetCloth;
 /// The fixed order of a step, whatever order effects were added in. Between `material` and `forces` the step
 /// commits: masses, momentum and link constants are written once, and only if water moved.
 enum class Stage {
-  sources,    ///< water arrives: absorption, rain, immersion, contact
-  transport,  ///< water spreads inside the cloth
-  losses,     ///< water leaves: dripping, drying
-  material,   ///< what wetness changes in the fabric
-  forces,     ///< velocity changes: wind, drag, cling
-  elasticity  ///< springs that must see the velocities of all other forces
+  sources,     ///< water arrives: absorption, rain, immersion, contact
+  transport,   ///< water spreads inside the cloth
+  losses,      ///< water leaves: dripping, drying
+  material,    ///< what wetness changes in the fabric
+  forces,      ///< velocity changes: wind, drag, cling
+  elasticity,  ///< springs that must see the velocities of all other forces
+  contact      ///< after Bullet's collision detection and before its solve: changes the contacts that were found
 };
 
 /// What an effect is told about the substep.
@@ -34,7 +35,8 @@ struct Step {
 /// - attach() is called once, when the effect is added, and again whenever the body's nodes, links or faces
 ///   changed in number; it builds what apply() needs and throws std::invalid_argument when the body lacks it;
 /// - apply() never throws, never allocates after its first call, and never writes a value that is not finite;
-/// - it changes water only through WetCloth::water(), and velocities only through WetCloth::push().
+/// - it changes water only through WetCloth::water(), and velocities only through WetCloth::push(); at the stage
+///   `contact` neither: the position-based worlds would lose the velocities, and the commit has been.
 class Effect {
  public:
   virtual ~Effect() = default;
@@ -44,7 +46,7 @@ class Effect {
   /// The effect is about to be removed: gives back what it changed in the body.
   virtual void detach(WetCloth& cloth) { static_cast<void>(cloth); }
   virtual void apply(WetCloth& cloth, const Step& step) = 0;
-  /// Asked instead of apply() at the stages `forces` and `elasticity` while Bullet lets the body sleep (it does so in
+  /// Asked instead of apply() at the stages from `forces` on while Bullet lets the body sleep (it does so in
   /// the deformable world only): true wakes the body.
   virtual bool wakes(const WetCloth& cloth, const Step& step) const {
     static_cast<void>(cloth);

@@ -1,5 +1,7 @@
 #include "bullet_wetcloth/NodeMasses.h"
 
+#include "bullet_wetcloth/ImpulseMatrix.h"
+
 #include <BulletSoftBody/btDeformableBackwardEulerObjective.h>
 #include <BulletSoftBody/btDeformableBodySolver.h>
 #include <BulletSoftBody/btPreconditioner.h>
@@ -9,19 +11,6 @@
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
-
-namespace {
-
-// Bullet's ImpulseMatrix for a step of 1: the inverse of 1/m_node + 1/m_body + r x I^-1 x r.
-btMatrix3x3 anchorImpulseMatrix(btScalar nodeInverseMass, const btRigidBody& rigid, const btVector3& arm) {
-  const btScalar inverseMass = nodeInverseMass + rigid.getInvMass();
-  if (inverseMass == 0) return btMatrix3x3(0, 0, 0, 0, 0, 0, 0, 0, 0);
-  const btMatrix3x3 cross(0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0);
-  const btMatrix3x3 diagonal(inverseMass, 0, 0, 0, inverseMass, 0, 0, 0, inverseMass);
-  return (diagonal - cross * rigid.getInvInertiaTensorWorld() * cross).inverse();
-}
-
-}  // namespace
 
 void NodeMasses::remember() {
   m_inverseMass.resize(static_cast<std::size_t>(m_body.m_nodes.size()));
@@ -188,7 +177,7 @@ void NodeMasses::refreshDeformable() {
     btSoftBody::DeformableNodeRigidAnchor& anchor = m_body.m_deformableAnchors[i];
     anchor.m_c2 = anchor.m_node->m_im;
     const btRigidBody* rigid = btRigidBody::upcast(anchor.m_cti.m_colObj);
-    if (rigid) anchor.m_c0 = anchorImpulseMatrix(anchor.m_node->m_im, *rigid, anchor.m_c1);
+    if (rigid) anchor.m_c0 = impulseMatrix(anchor.m_node->m_im, *rigid, anchor.m_c1);
   }
   btSoftBodySolver* solver = m_body.getSoftBodySolver();
   if (solver) static_cast<btDeformableBodySolver*>(solver)->m_objective->m_massPreconditioner->reinitialize(true);

@@ -28,7 +28,9 @@ Effect& WetCloth::add(std::unique_ptr<Effect> effect) {
   effect->attach(*this);
   const auto isLater = [](Stage stage, const std::unique_ptr<Effect>& other) { return stage < other->stage(); };
   const auto position = std::upper_bound(m_effects.begin(), m_effects.end(), effect->stage(), isLater);
-  return **m_effects.insert(position, std::move(effect));
+  Effect& added = **m_effects.insert(position, std::move(effect));
+  if (added.stage() == Stage::contact) m_world.shareTick();
+  return added;
 }
 
 void WetCloth::remove(Effect& effect) {
@@ -37,6 +39,7 @@ void WetCloth::remove(Effect& effect) {
   if (position == m_effects.end()) reject(std::string("effect ") + effect.name(), "is not one of this cloth's effects");
   effect.detach(*this);
   m_effects.erase(position);
+  m_world.shareTick();
 }
 
 double WetCloth::saturation(int node) const { return m_water.saturation(checked(node)); }
@@ -108,6 +111,7 @@ void WetCloth::guarded(std::size_t& index, Action action) {
   } catch (...) {
     log(std::string("wetcloth: effect ") + failed->name() + " could not give back what it changed");
   }
+  m_world.shareTick();
 }
 
 void WetCloth::step(const Step& step) {
@@ -118,7 +122,15 @@ void WetCloth::step(const Step& step) {
   while (next < m_effects.size() && m_effects[next]->stage() < Stage::forces) guarded(next, run);
   if (m_water.movedSinceCommit()) m_masses.commit(m_water);
   if (!isAwake(step)) return;
-  while (next < m_effects.size()) guarded(next, run);
+  while (next < m_effects.size() && m_effects[next]->stage() < Stage::contact) guarded(next, run);
+}
+
+void WetCloth::stepContacts(const Step& step) {
+  if (!hasContactEffects() || !(step.dt > 0) || !m_body.isActive()) return;
+  if (bodyChanged()) adaptToBody();
+  std::size_t next = 0;
+  while (next < m_effects.size() && m_effects[next]->stage() < Stage::contact) ++next;
+  while (next < m_effects.size()) guarded(next, [&](Effect& effect) { effect.apply(*this, step); });
 }
 
 // Bullet adds no gravity to a sleeping body, and what we would push against it would move the cloth all the same. So

@@ -112,8 +112,11 @@ class WetCloth {
   friend class WetClothWorld;
   WetCloth(WetClothWorld& world, btSoftBody& body, Fabric fabric, bool deformable);
 
-  /// One substep: sources, transport, losses, material, commit, forces, elasticity. Never throws.
+  /// Before Bullet predicts: sources, transport, losses, material, commit, forces, elasticity. Never throws.
   void step(const Step& step);
+  /// Between Bullet's collision detection and its solve: contact. Never throws.
+  void stepContacts(const Step& step);
+  bool hasContactEffects() const { return !m_effects.empty() && m_effects.back()->stage() == Stage::contact; }
   bool isAwake(const Step& step);
   void adaptToBody();
   void releaseEffects();

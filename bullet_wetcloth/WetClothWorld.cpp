@@ -1,7 +1,7 @@
 #include "bullet_wetcloth/WetClothWorld.h"
 
-#include "bullet_wetcloth/PreTickHook.h"
 #include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/SubstepHook.h"
 
 #include <BulletSoftBody/btDeformableBodySolver.h>
 #include <BulletSoftBody/btDeformableGravityForce.h>
@@ -43,11 +43,12 @@ WetClothWorld::WetClothWorld(btDynamicsWorld& world, Hook hook)
                 "that of a btSoftRigidDynamicsWorld, btSoftMultiBodyDynamicsWorld or "
                 "btDeformableMultiBodyDynamicsWorld");
   }
-  PreTickHook::attach(*this, hook == Hook::preTick);
+  SubstepHook::attach(*this);
+  if (hook == Hook::preTick) SubstepHook::take(*this, SubstepHook::Slot::preTick);
 }
 
 WetClothWorld::~WetClothWorld() {
-  PreTickHook::detach(*this);
+  SubstepHook::detach(*this);
   for (const auto& cloth : m_cloths) {
     if (isInWorld(cloth->m_body)) cloth->releaseEffects();
   }
@@ -75,6 +76,7 @@ void WetClothWorld::remove(btSoftBody& body) {
   if (position == m_cloths.end()) reject("body", "was not added to this WetClothWorld");
   (*position)->releaseEffects();
   m_cloths.erase(position);
+  shareTick();
 }
 
 WetCloth* WetClothWorld::find(const btSoftBody& body) {
@@ -84,14 +86,42 @@ WetCloth* WetClothWorld::find(const btSoftBody& body) {
   return nullptr;
 }
 
-bool WetClothWorld::isHooked() const { return m_hook == Hook::preTick && PreTickHook::isInPlace(m_world); }
+bool WetClothWorld::isHooked() const {
+  return m_hook == Hook::preTick && SubstepHook::isInPlace(m_world, SubstepHook::Slot::preTick);
+}
+
+bool WetClothWorld::isTickHooked() const {
+  return m_sharesTick && SubstepHook::isInPlace(m_world, SubstepHook::Slot::tick);
+}
 
 void WetClothWorld::preTick(btScalar dt) {
   if (!(std::isfinite(dt) && dt > 0)) return;
+  m_stepStart = m_time;
   for (const auto& cloth : m_cloths) {
-    if (noticePresence(*cloth)) cloth->step(stepOf(cloth->m_body, dt));
+    if (noticePresence(*cloth)) cloth->step(stepOf(cloth->m_body, dt, m_time));
   }
   m_time += static_cast<double>(dt);
+}
+
+void WetClothWorld::tick(btScalar dt) {
+  if (!(std::isfinite(dt) && dt > 0)) return;
+  for (const auto& cloth : m_cloths) {
+    if (noticePresence(*cloth)) cloth->stepContacts(stepOf(cloth->m_body, dt, m_stepStart));
+  }
+}
+
+// Bullet's tick callback is shared while a cloth needs it, and only then.
+void WetClothWorld::shareTick() {
+  if (m_hook != Hook::preTick) return;
+  const auto needs = [](const std::unique_ptr<WetCloth>& cloth) { return cloth->hasContactEffects(); };
+  const bool isNeeded = std::any_of(m_cloths.begin(), m_cloths.end(), needs);
+  if (isNeeded && !m_sharesTick) SubstepHook::take(*this, SubstepHook::Slot::tick);
+  if (!isNeeded && m_sharesTick) SubstepHook::giveBack(*this, SubstepHook::Slot::tick);
+  m_sharesTick = isNeeded;
+  if (isNeeded && !isTickHooked()) {
+    log("wetcloth: another tick callback has replaced ours; no effect of the stage contact will run unless it calls "
+        "tick()");
+  }
 }
 
 // A body that left the world may have been deleted, so only its address is looked at.
@@ -105,10 +135,10 @@ bool WetClothWorld::noticePresence(WetCloth& cloth) const {
   return isPresent;
 }
 
-Step WetClothWorld::stepOf(const btSoftBody& body, btScalar dt) const {
+Step WetClothWorld::stepOf(const btSoftBody& body, btScalar dt, double time) const {
   // The deformable world integrates with its own step and leaves the body's timescale aside.
   const double timescale = isDeformable(m_world) ? 1 : static_cast<double>(body.m_cfg.timescale);
-  return {static_cast<double>(dt) * timescale, m_time, gravityOf(body)};
+  return {static_cast<double>(dt) * timescale, time, gravityOf(body)};
 }
 
 btVector3 WetClothWorld::gravityOf(const btSoftBody& body) const {

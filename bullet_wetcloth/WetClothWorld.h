@@ -15,8 +15,10 @@ inline namespace WETCLOTH_PRECISION {
 
 /// How a WetClothWorld gets its turn in each substep.
 enum class Hook {
-  preTick,  ///< through Bullet's pre-tick callback, the application's own callback running first
-  manual    ///< the application calls WetClothWorld::preTick(dt) from its own pre-tick callback
+  preTick,  ///< through Bullet's pre-tick callback, the application's own callback running first; and its tick
+            ///< callback while a cloth has an effect of the stage `contact`
+  manual    ///< the application calls WetClothWorld::preTick(dt) from its own pre-tick callback, and tick(dt) from
+            ///< its own tick callback
 };
 
 /// Makes the cloths of one Bullet world able to get wet.
@@ -27,10 +29,10 @@ enum class Hook {
 /// thread at a time; different worlds may run in different threads.
 class WetClothWorld {
  public:
-  /// Attaches to a world. An application's own pre-tick callback goes on being called, first, and the world's user
-  /// info is not touched. Throws std::invalid_argument when the world is of another kind or has a WetClothWorld.
+  /// Attaches to a world. An application's own callbacks go on being called, first, and the world's user info is not
+  /// touched. Throws std::invalid_argument when the world is of another kind or has a WetClothWorld.
   explicit WetClothWorld(btDynamicsWorld& world, Hook hook = Hook::preTick);
-  /// Detaches: removes the cloths and puts the application's callback back.
+  /// Detaches: removes the cloths and puts the application's callbacks back.
   ~WetClothWorld();
   WetClothWorld(const WetClothWorld&) = delete;
   WetClothWorld& operator=(const WetClothWorld&) = delete;
@@ -53,10 +55,17 @@ class WetClothWorld {
 
   /// True while Bullet will call us: false after the application has overwritten the pre-tick callback.
   bool isHooked() const;
+  /// The same of Bullet's tick callback, which is ours only while a cloth has an effect of the stage `contact`.
+  bool isTickHooked() const;
 
   /// One substep of `dt` seconds, before Bullet predicts: for Hook::manual, and for an application whose own callback
   /// has replaced ours (see isHooked()). A dt that is not finite and positive is ignored. Never throws.
   void preTick(btScalar dt);
+  /// The part of the same substep between Bullet's collision detection and its solve, where effects of the stage
+  /// `contact` run: for Hook::manual, and for an application whose own tick callback has replaced ours (see
+  /// isTickHooked()). Call it from Bullet's tick callback, btDynamicsWorld::setInternalTickCallback(callback, userInfo,
+  /// false). A dt that is not finite and positive is ignored. Never throws.
+  void tick(btScalar dt);
 
   /// Simulated time since construction [s].
   double time() const { return m_time; }
@@ -67,9 +76,11 @@ class WetClothWorld {
   void log(const std::string& message) const;
 
  private:
+  friend class WetCloth;
+  void shareTick();
   bool isInWorld(const btSoftBody& body) const;
   bool noticePresence(WetCloth& cloth) const;
-  Step stepOf(const btSoftBody& body, btScalar dt) const;
+  Step stepOf(const btSoftBody& body, btScalar dt, double time) const;
   btVector3 gravityOf(const btSoftBody& body) const;
 
   btDynamicsWorld& m_world;
@@ -77,6 +88,8 @@ class WetClothWorld {
   std::vector<std::unique_ptr<WetCloth>> m_cloths;
   std::function<void(const std::string&)> m_log;
   double m_time = 0;
+  double m_stepStart = 0;  // of the substep that runs [s]
+  bool m_sharesTick = false;
 };
 
 }  // namespace WETCLOTH_PRECISION
