@@ -42,9 +42,9 @@ class Diffusion : public Effect {
   };
 
   struct Parameters {
-    double warpDiffusivity = 1e-5;  ///< D of a saturated cloth along the warp [m^2/s], > 0. The default is a guess
-    double weftDiffusivity = 1e-5;  ///< and along the weft [m^2/s], > 0. The default is a guess
-    double exponent = 0;            ///< of D(s) = D s^exponent [-], in [0, 100]
+    double warpDiffusivity = 5e-6;  ///< D of a saturated cloth along the warp [m^2/s], > 0. The default is a guess
+    double weftDiffusivity = 5e-6;  ///< and along the weft [m^2/s], > 0. The default is a guess
+    double exponent = 2;  ///< of D(s) = D s^exponent [-], in [0, 100]; 2 goes with 3 in Seepage (Brooks & Corey 1964)
     /// Direction of the warp, of any length > 0, in the body's shape when the effect is added; projected onto each
     /// triangle. Matters only when the two diffusivities differ.
     btVector3 warp = btVector3(1, 0, 0);

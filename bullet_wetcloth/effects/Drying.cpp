@@ -31,7 +31,7 @@ void requireClimate(double temperature, double relativeHumidity) {
 }
 
 double stillAirRate(const Drying::Parameters& parameters) {
-  return parameters.sides * evaporationRate(parameters.temperature, parameters.relativeHumidity, 0);
+  return parameters.sides * parameters.selfCooling * evaporationRate(parameters.temperature, parameters.relativeHumidity, 0);
 }
 
 }  // namespace
@@ -67,6 +67,9 @@ Drying::Drying(Parameters parameters) : m_parameters(std::move(parameters)) {
   if (!(critical > 0 && critical <= 1)) rejectValue("Drying.criticalSaturation", critical, "in (0, 1]");
   if (!(m_parameters.sides > 0 && m_parameters.sides <= 2)) {
     rejectValue("Drying.sides", m_parameters.sides, "in (0, 2]");
+  }
+  if (!(m_parameters.selfCooling > 0 && m_parameters.selfCooling <= 1)) {
+    rejectValue("Drying.selfCooling", m_parameters.selfCooling, "in (0, 1]");
   }
   m_parameters.exposure.requireValid("Drying.exposure");
   m_stillAirRate = stillAirRate(m_parameters);

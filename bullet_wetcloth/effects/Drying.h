@@ -16,7 +16,7 @@ double saturationVapourPressure(double temperature);
 
 /// Water that a wet surface gives to the air [kg/m^2/s], for each side: the aerodynamic term of Penman (1948) in the
 /// units of Shuttleworth (1993, Eq. 4.2.30), 6.43 MJ/m^2/day/kPa (1 + 0.536 u) e_s(T) (1 - RH) / lambda with lambda
-/// 2.45 MJ/kg. The surface is as warm as the air: the heat that drying takes (and sunshine gives) is left out.
+/// 2.45 MJ/kg. The surface is as warm as the air: see Drying::Parameters::selfCooling.
 /// @param temperature T [degC]; @param relativeHumidity RH, [0, 1]; @param airSpeed u, relative to the surface [m/s]
 double evaporationRate(double temperature, double relativeHumidity, double airSpeed);
 
@@ -42,6 +42,9 @@ class Drying : public Effect {
     /// Saturation at which the surface begins to fall dry, (0, 1]. A guess.
     double criticalSaturation = 0.3;
     double sides = 2;  ///< of the cloth that air reaches, (0, 2]
+    /// Share of the rate that remains when drying cools the cloth below the air, (0, 1]; 1: something keeps it as warm
+    /// as the air. 0.49 in calm air of 20 C, less in wind (docs/fabrics.md); two sides then dry 134 g/m^2/h by default.
+    double selfCooling = 0.5;
     /// Share of a node's area that air reaches, [0, 1]: a constant, one value per node, or a function of the node's
     /// position and normal.
     Exposure exposure = 1.0;

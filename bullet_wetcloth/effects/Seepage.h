@@ -35,7 +35,7 @@ class Seepage : public Effect {
   struct Parameters {
     /// v of saturated cloth hanging straight down under 9.81 m/s^2 [m/s], >= 0; it grows with gravity. The default is a
     /// guess.
-    double speed = 1e-3;
+    double speed = 5e-5;
     double exponent = 3;  ///< of s^exponent [-], in [1, 100]
   };
 

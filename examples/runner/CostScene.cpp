@@ -10,7 +10,9 @@ namespace {
 Json everyEffect() {
   Json effects = Json::object();
   for (const std::string& key : keys::effects.keys) effects[key] = Json::object();
-  effects["wind"]["velocity_m_s"] = {2, 0, 1};  // the one parameter without a default
+  // The parameters without a default
+  effects["wind"]["velocity_m_s"] = {2, 0, 1};
+  effects["splash"] = {{"sphere", {{"centre_m", {0.5, 0.5, 0}}, {"radius_m", 0.2}}}, {"velocity_m_s", {0, 0, 5}}};
   return effects;
 }
 
@@ -21,6 +23,7 @@ Scene costScene() {
   scene.file = "wetcloth cost";
   scene.name = "built-in";
   scene.precision = ownPrecision;
+  scene.water = WaterScene{0.1};
   ClothScene cloth;
   wetcloth::ClothPatch patch;
   patch.columns = patch.rows = 64;

@@ -10,10 +10,23 @@ struct EffectKey {
   AddEffect (*read)(JsonCursor cursor, int nodes);
 };
 
-/// In the order of a step; springs before what changes them.
-const EffectKey effectKeys[] = {{"absorption", readAbsorption},
+/// In the order in which they are added; springs before what changes them.
+const EffectKey effectKeys[] = {{"hooke_springs", readHookeSprings},
+                                {"absorption", readAbsorption},
+                                {"immersion", readImmersion},
+                                {"rain", readRain},
+                                {"splash", readSplash},
+                                {"contact_wetting", readContactWetting},
+                                {"diffusion", readDiffusion},
+                                {"seepage", readSeepage},
+                                {"dripping", readDripping},
+                                {"drying", readDrying},
+                                {"wet_stiffness", readWetStiffness},
+                                {"swelling", readSwelling},
                                 {"wind", readWind},
-                                {"hooke_springs", readHookeSprings},
+                                {"water_drag", readWaterDrag},
+                                {"cling", readCling},
+                                {"wet_friction", readWetFriction},
                                 {"collision_audit", readCollisionAudit}};
 
 }  // namespace

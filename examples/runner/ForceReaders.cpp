@@ -4,6 +4,8 @@
 
 namespace runner {
 
+using wetcloth::Cling;
+using wetcloth::WaterDrag;
 using wetcloth::Wind;
 
 AddEffect readWind(JsonCursor cursor, int) {
@@ -25,6 +27,26 @@ AddEffect readWind(JsonCursor cursor, int) {
   readNumber(cursor, "linear_drag_n_s_m3", Range::notNegative(), parameters.linearDrag);
   readNumber(cursor, "paper_force_n", Range::notNegative(), parameters.paperForce);
   return addEffect<Wind>(parameters);
+}
+
+AddEffect readWaterDrag(JsonCursor cursor, int) {
+  cursor.expectObject(keys::waterDrag);
+  WaterDrag::Parameters parameters;
+  readNumber(cursor, "drag_coefficient", Range::notNegative(), parameters.dragCoefficient);
+  readNumber(cursor, "skin_friction", Range::notNegative(), parameters.skinFriction);
+  readNumber(cursor, "fibre_density_kg_m3", Range::positive(), parameters.fibreDensity);
+  return addEffect<WaterDrag>(parameters);
+}
+
+AddEffect readCling(JsonCursor cursor, int) {
+  cursor.expectObject(keys::cling);
+  Cling::Parameters parameters;
+  readNumber(cursor, "adhesion_pa", Range::notNegative(), parameters.adhesion);
+  readNumber(cursor, "shear_strength_pa", Range::notNegative(), parameters.shearStrength);
+  readNumber(cursor, "minimum_saturation", Range::fraction(), parameters.minimumSaturation);
+  readNumber(cursor, "peak_saturation", Range::positiveFraction(), parameters.peakSaturation);
+  readNumber(cursor, "flooded_share", Range::fraction(), parameters.floodedShare);
+  return addEffect<Cling>(parameters);
 }
 
 }  // namespace runner

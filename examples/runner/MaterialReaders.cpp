@@ -5,6 +5,9 @@
 namespace runner {
 
 using wetcloth::HookeSprings;
+using wetcloth::Swelling;
+using wetcloth::WetFriction;
+using wetcloth::WetStiffness;
 
 AddEffect readHookeSprings(JsonCursor cursor, int) {
   cursor.expectObject(keys::hookeSprings);
@@ -13,6 +16,33 @@ AddEffect readHookeSprings(JsonCursor cursor, int) {
   readNumber(cursor, "bending_stiffness_n_m", Range::notNegative(), parameters.bendingStiffness);
   if (const auto iterations = cursor.find("iterations")) parameters.iterations = iterations->integer(1, 10000);
   return addEffect<HookeSprings>(parameters);
+}
+
+AddEffect readWetStiffness(JsonCursor cursor, int) {
+  cursor.expectObject(keys::wetStiffness);
+  const Range factors{0.001, 1000, true, "in [0.001, 1000]"};
+  WetStiffness::Parameters parameters;
+  readNumber(cursor, "wet_stretch", factors, parameters.wetStretch);
+  readNumber(cursor, "wet_bending", factors, parameters.wetBending);
+  readNumber(cursor, "dry_damping_1_s", Range::notNegative(), parameters.dryDamping);
+  readNumber(cursor, "wet_damping_1_s", Range::notNegative(), parameters.wetDamping);
+  return addEffect<WetStiffness>(parameters);
+}
+
+AddEffect readSwelling(JsonCursor cursor, int) {
+  cursor.expectObject(keys::swelling);
+  Swelling::Parameters parameters;
+  readNumber(cursor, "saturated_strain", Range{-0.5, 0.5, false, "in (-0.5, 0.5)"}, parameters.saturatedStrain);
+  return addEffect<Swelling>(parameters);
+}
+
+AddEffect readWetFriction(JsonCursor cursor, int) {
+  cursor.expectObject(keys::wetFriction);
+  WetFriction::Parameters parameters;
+  readNumber(cursor, "wet_factor", Range::notNegative(), parameters.wetFactor);
+  readNumber(cursor, "peak_saturation", Range::positiveFraction(), parameters.peakSaturation);
+  readNumber(cursor, "flooded_factor", Range::notNegative(), parameters.floodedFactor);
+  return addEffect<WetFriction>(parameters);
 }
 
 }  // namespace runner
