@@ -1,7 +1,6 @@
 #pragma once
 
 #include "bullet_wetcloth/Effect.h"
-#include "bullet_wetcloth/effects/FluidResistance.h"
 #include "bullet_wetcloth/effects/WaterSurface.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
 
@@ -11,6 +10,9 @@
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
+
+struct FlatTriangle;
+struct FluidResistance;
 
 /// Volume of a piece of wet cloth without the air in it [m^3]: dry mass / fibre density + held water / 1000 kg/m^3.
 double displacedVolume(double dryMass, double fibreDensity, double held);

@@ -1,12 +1,10 @@
-// A cloth that dries: the closed form for one step or many, climate, wind, exposure, idling, bad input.
+// A cloth that dries: the closed form for one step or many, climate, wind, exposure.
 
 #include "bullet_wetcloth/effects/Drying.h"
 
 #include "tests/support/ClothScene.h"
-#include "tests/support/CoreScene.h"
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace wetcloth_test {
@@ -16,12 +14,8 @@ using wetcloth::Drying;
 using wetcloth::dryingStep;
 using wetcloth::dryingTime;
 using wetcloth::evaporationRate;
-using wetcloth::Exposure;
 using wetcloth::Fabric;
 using wetcloth::Hook;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A saturated 3 x 3 cloth of 1 m^2; only our part of the step runs. Node 4, in the middle, has a quarter of its area.
 struct Line {
@@ -178,38 +172,6 @@ TEST(Drying, LeavesTheVelocities) {
   EXPECT_NEAR(double(line.scene.node(4).m_im) * line.scene.cloth().water().totalMass(4), 1, kGeometry);
 }
 
-// --- a dry cloth costs nothing ----------------------------------------------------------------------------------
-
-TEST(DryingIdles, WhenTheClothIsDry) {
-  Line line;
-  for (int i = 0; i < 1000; ++i) line.scene.preTick(60);  // 110 time constants
-  EXPECT_EQ(line.scene.cloth().ledger().held, 0);
-  const long long visited = line.effect.nodesVisited();
-  const long long commits = line.scene.cloth().masses().commits();
-  for (int i = 0; i < 100; ++i) line.scene.preTick(60);
-  EXPECT_EQ(line.effect.nodesVisited(), visited);
-  EXPECT_EQ(line.scene.cloth().masses().commits(), commits);
-  line.scene.cloth().setSaturation(0.5);
-  line.scene.preTick(60);
-  EXPECT_GT(line.effect.nodesVisited(), visited);
-}
-
-TEST(DryingIdles, InAirThatIsSaturatedAndWithoutExposure) {
-  Drying::Parameters humid;
-  humid.relativeHumidity = 1;
-  Line line(humid);
-  for (int i = 0; i < 10; ++i) line.scene.preTick(1);
-  EXPECT_EQ(line.effect.nodesVisited(), 0);
-  Drying::Parameters covered;
-  covered.exposure = 0.0;
-  Line under(covered);
-  for (int i = 0; i < 10; ++i) under.scene.preTick(1);
-  EXPECT_EQ(under.effect.nodesVisited(), 9);
-  under.effect.setExposure(1.0);
-  under.scene.preTick(1);
-  EXPECT_GT(under.scene.cloth().ledger().evaporated, 0);
-}
-
 // --- in Bullet's worlds -----------------------------------------------------------------------------------------
 
 class DryingInWorld : public InEveryWorld {};
@@ -228,71 +190,7 @@ TEST_P(DryingInWorld, OfAPinnedClothFollowsTheClosedForm) {
   EXPECT_NEAR((capacity - scene.cloth().held(4)) / dried, 1, kGeometry);
 }
 
-TEST_P(DryingInWorld, GoesOnWhenTheClothIsCut) {
-  ClothScene scene(GetParam(), kEarthGravity, core::hangingPatch(5));
-  scene.addBulletSpringsForStep();
-  scene.wet().setLog({});
-  scene.cloth().add<Drying>({30, 0.1, btVector3(4, 0, 0)});
-  scene.cloth().setSaturation(1);
-  scene.step(30);
-  btSoftBody& body = scene.body();
-  ASSERT_TRUE(body.cutLink(body.m_faces[0].m_n[0], body.m_faces[0].m_n[1], btScalar(0.5)));
-  const double before = scene.cloth().ledger().evaporated;
-  scene.step(30);
-  ASSERT_EQ(scene.cloth().effects().size(), 1u);
-  const wetcloth::Ledger ledger = scene.cloth().ledger();
-  EXPECT_GT(ledger.evaporated, before);
-  EXPECT_LE(std::fabs(ledger.imbalance()), 1e-12 * ledger.initial);
-  EXPECT_TRUE(core::isFinite(body));
-}
-
 WETCLOTH_IN_EVERY_WORLD(DryingInWorld);
-
-// --- bad input --------------------------------------------------------------------------------------------------
-
-void expectRefused(double Drying::Parameters::*field, const std::string& name, const std::vector<double>& values) {
-  for (const double bad : values) {
-    Drying::Parameters parameters;
-    parameters.*field = bad;
-    const std::string message = rejection([&] { Drying{parameters}; });
-    EXPECT_EQ(message.find("Drying." + name + " = "), 0u) << bad << ": " << message;
-  }
-}
-
-TEST(DryingBadInput, IsNamed) {
-  expectRefused(&Drying::Parameters::temperature, "temperature", {-1, 61, kNaN, kInfinity});
-  expectRefused(&Drying::Parameters::relativeHumidity, "relativeHumidity", {-0.1, 1.1, kNaN, kInfinity});
-  expectRefused(&Drying::Parameters::criticalSaturation, "criticalSaturation", {0, -0.1, 1.1, kNaN, kInfinity});
-  expectRefused(&Drying::Parameters::sides, "sides", {0, -1, 2.5, kNaN, kInfinity});
-  Drying::Parameters parameters;
-  parameters.air = btVector3(0, btScalar(kNaN), 0);
-  EXPECT_EQ(rejection([&] { Drying{parameters}; }).find("Drying.air.y = nan"), 0u);
-  parameters = {};
-  parameters.exposure = 1.5;
-  EXPECT_EQ(rejection([&] { Drying{parameters}; }).find("Drying.exposure = 1.5"), 0u);
-}
-
-TEST(DryingBadInput, OfASetterChangesNothing) {
-  Line line;
-  EXPECT_EQ(rejection([&] { line.effect.setClimate(99, 0.1); }).find("Drying.temperature = 99"), 0u);
-  EXPECT_EQ(rejection([&] { line.effect.setClimate(30, 7); }).find("Drying.relativeHumidity = 7"), 0u);
-  EXPECT_EQ(rejection([&] { line.effect.setAir(btVector3(0, 0, btScalar(kInfinity))); }).find("Drying.air.z"), 0u);
-  EXPECT_EQ(rejection([&] { line.effect.setExposure(-1.0); }).find("Drying.exposure = -1"), 0u);
-  EXPECT_NE(rejection([&] { line.effect.setExposure(std::vector<double>(8, 1.0)); }).find("Drying.exposure.size() = 8"),
-            std::string::npos);
-  EXPECT_NEAR(driedIn100Seconds(line) / (100 * rate()), 1, kGeometry);
-}
-
-TEST(DryingBadInput, ABodyThatDoesNotFitIsRefused) {
-  ClothScene rope(WorldKind::softRigid, kEarthGravity, hangingRope(3, 0.1, 0.1));
-  const std::string message = rejection([&] { rope.cloth().add<Drying>(); });
-  EXPECT_NE(message.find("Drying: body.m_faces.size() = 0"), std::string::npos) << message;
-  ClothScene patch(WorldKind::softRigid, kEarthGravity, levelPatch(3, 1));
-  Drying::Parameters parameters;
-  parameters.exposure = std::vector<double>(8, 1.0);
-  EXPECT_NE(rejection([&] { patch.cloth().add<Drying>(parameters); }).find("size"), std::string::npos);
-  EXPECT_TRUE(patch.cloth().effects().empty());
-}
 
 }  // namespace
 }  // namespace wetcloth_test
