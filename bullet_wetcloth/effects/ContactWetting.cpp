@@ -25,7 +25,13 @@ void requireFilm(const std::string& field, double water) {
   if (!(water >= 0)) rejectValue(field, water, ">= 0 (infinite is allowed)");
 }
 
-double room(const Water& water, std::size_t node) { return std::max(0.0, water.capacity(node) - water.held(node)); }
+// The part of `mass` that a node has room for, so that not even a rounding goes above its capacity.
+double fitting(const Water& water, std::size_t node, double mass) {
+  const double capacity = water.capacity(node);
+  const double held = water.held(node);
+  const double most = std::max(0.0, capacity - held);
+  return std::min(mass, held + most > capacity ? std::nextafter(most, 0.0) : most);
+}
 
 btVector3 velocityOf(const btCollisionObject& object, const btVector3& place) {
   const btRigidBody* rigid = btRigidBody::upcast(&object);
@@ -144,7 +150,8 @@ void ContactWetting::takeFromFilm(WetCloth& cloth, const Step& step, const Rigid
                             ? contactArea(cloth, i)
                             : cloth.restMesh().triangles()[static_cast<std::size_t>(contact.face)].area;
     const double conductance = m_parameters.rate * area * contact.point.weights[static_cast<std::size_t>(k)] * step.dt;
-    const double taken = filmUptake(water.held(i), water.capacity(i), conductance, *film);
+    const double uptake = filmUptake(water.held(i), water.capacity(i), conductance, *film);
+    const double taken = fitting(water, i, uptake);
     if (!(taken > 0)) continue;
     const btVector3 velocity = velocityOf(*contact.object, cloth.body().m_nodes[node].m_x);
     const double before = water.held(i);
@@ -204,7 +211,7 @@ void ContactWetting::exchange(WetCloth& nodesOf, WetCloth& facesOf, const FaceCo
 
 void ContactWetting::give(WetCloth& from, int fromNode, WetCloth& to, int toNode, double mass) {
   const std::size_t receiver = static_cast<std::size_t>(toNode);
-  const double wanted = std::min(mass, room(to.water(), receiver));
+  const double wanted = fitting(to.water(), receiver, mass);
   if (!(wanted > 0)) return;
   const double moved = from.water().drip(static_cast<std::size_t>(fromNode), wanted);
   if (!(moved > 0)) return;
