@@ -93,14 +93,19 @@ std::string whyNoFaceContacts(const WetCloth& cloth) {
          "worlds list contacts of nodes with other bodies' triangles";
 }
 
-bool WorldObjects::contains(const btCollisionObject* object) {
-  if (object != m_last) {
-    const btCollisionObjectArray& objects = m_world.getCollisionObjectArray();
-    m_last = object;
-    m_lastIsThere = false;
-    for (int i = 0; i < objects.size() && !m_lastIsThere; ++i) m_lastIsThere = objects[i] == object;
-  }
-  return m_lastIsThere;
+double contactArea(WetCloth& cloth, std::size_t node) {
+  const std::vector<double>& areas = cloth.restMesh().nodeAreas();
+  const double area = node < areas.size() ? areas[node] : 0;
+  return area > 0 ? area : cloth.water().dryMass(node) / cloth.fabric().arealDensity;
+}
+
+btCollisionObject* WorldObjects::find(const btCollisionObject* object) {
+  if (object == m_last) return m_found;
+  const btCollisionObjectArray& objects = m_world.getCollisionObjectArray();
+  m_last = object;
+  m_found = nullptr;
+  for (int i = 0; i < objects.size() && !m_found; ++i) m_found = objects[i] == object ? objects[i] : nullptr;
+  return m_found;
 }
 
 RigidContacts::RigidContacts(WetCloth& cloth)
@@ -114,6 +119,7 @@ int RigidContacts::size() const {
 bool RigidContacts::read(int i, RigidContact& contact) {
   const int nodeContacts = m_deformable ? m_body.m_nodeRigidContacts.size() : m_body.m_rcontacts.size();
   const btSoftBody::sCti* found = nullptr;
+  contact.face = -1;
   if (!m_deformable) {
     btSoftBody::RContact& entry = m_body.m_rcontacts[i];
     contact.point = nodePoint(indexIn<btSoftBody::Node>(m_body.m_nodes, entry.m_node));
@@ -126,13 +132,14 @@ bool RigidContacts::read(int i, RigidContact& contact) {
     found = &entry.m_cti;
   } else {
     btSoftBody::DeformableFaceRigidContact& entry = m_body.m_faceRigidContacts[i - nodeContacts];
-    const int face = indexIn<btSoftBody::Face>(m_body.m_faces, entry.m_face);
-    if (face < 0 || !facePoint(m_body, m_body.m_faces[face], entry.m_bary, contact.point)) return false;
+    contact.face = indexIn<btSoftBody::Face>(m_body.m_faces, entry.m_face);
+    if (contact.face < 0) return false;
+    if (!facePoint(m_body, m_body.m_faces[contact.face], entry.m_bary, contact.point)) return false;
     contact.deformable = &entry;
     found = &entry.m_cti;
   }
-  if (contact.point.nodes[0] < 0 || !m_objects.contains(found->m_colObj)) return false;
-  contact.object = found->m_colObj;
+  contact.object = m_objects.find(found->m_colObj);
+  if (contact.point.nodes[0] < 0 || !contact.object) return false;
   contact.normal = found->m_normal;
   contact.gap = static_cast<double>(found->m_offset);
   if (!m_deformable) {

@@ -6,6 +6,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <array>
+#include <cstddef>
 #include <string>
 
 namespace wetcloth {
@@ -23,7 +24,8 @@ struct ContactPoint {
 /// A contact of a cloth with a rigid body, as Bullet lists it.
 struct RigidContact {
   ContactPoint point;
-  const btCollisionObject* object = nullptr;      ///< is in the world
+  int face = -1;                                  ///< of the triangle, when the point is on one
+  btCollisionObject* object = nullptr;            ///< is in the world
   btVector3 normal = btVector3(0, 0, 0);          ///< out of the object, of length 1
   double gap = 0;                                 ///< to where the contact holds the cloth [m]; < 0: inside
   btSoftBody::RContact* positionBased = nullptr;  ///< Bullet's own entry: one of these two
@@ -47,17 +49,21 @@ std::string whyNoNodeContacts(const WetCloth& cloth);
 /// The same of its contacts with other soft bodies.
 std::string whyNoFaceContacts(const WetCloth& cloth);
 
-/// Tells whether an object is in a world by its address alone: what a list of the last substep names may have been
-/// deleted since.
+/// The area by which a node touches [m^2], > 0: a third of its triangles at rest; for a node of no triangle its dry
+/// mass over the fabric's areal density. Builds the cloth's RestMesh when first asked for.
+double contactArea(WetCloth& cloth, std::size_t node);
+
+/// Finds objects of a world by their address alone: what a list of the last substep names may have been deleted since.
 class WorldObjects {
  public:
   explicit WorldObjects(const btCollisionWorld& world) : m_world(world) {}
-  bool contains(const btCollisionObject* object);
+  /// The object at this address, or null when it is not in the world.
+  btCollisionObject* find(const btCollisionObject* object);
 
  private:
   const btCollisionWorld& m_world;
   const btCollisionObject* m_last = nullptr;  // contacts with one object follow each other
-  bool m_lastIsThere = false;
+  btCollisionObject* m_found = nullptr;
 };
 
 /// A cloth's contacts with rigid bodies. In the stage `contact` they are those of this substep, before that those of
@@ -102,9 +108,10 @@ class FaceContacts {
       if (read(i, contact)) visitor(static_cast<const FaceContact&>(contact));
     }
   }
+  /// Of all entries in the list, also those with other bodies.
+  int size() const;
 
  private:
-  int size() const;
   bool read(int i, FaceContact& contact);
 
   btSoftBody& m_nodesOf;

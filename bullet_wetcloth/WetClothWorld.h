@@ -50,6 +50,7 @@ class WetClothWorld {
   const std::vector<std::unique_ptr<WetCloth>>& cloths() const { return m_cloths; }
 
   btDynamicsWorld& world() { return m_world; }
+  const btDynamicsWorld& world() const { return m_world; }
   /// All soft bodies of the world, wet or not.
   const btAlignedObjectArray<btSoftBody*>& softBodies() const;
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "bullet_wetcloth/Contacts.h"
+#include "bullet_wetcloth/effects/Cling.h"
+#include "bullet_wetcloth/effects/ContactWetting.h"
 #include "bullet_wetcloth/effects/WetFriction.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/CoreScene.h"

@@ -1,0 +1,108 @@
+#pragma once
+
+#include "bullet_wetcloth/Effect.h"
+#include "bullet_wetcloth/effects/WetnessCurve.h"
+
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+struct RigidContact;
+
+/// What a bond gives of the impulse that would keep its node in place.
+struct BondImpulse {
+  btVector3 impulse = btVector3(0, 0, 0);  ///< on the node [N s]
+  bool breaks = false;                     ///< pulled harder than it holds: no impulse at all
+  bool slides = false;                     ///< held back along the surface by less than it takes
+};
+
+/// An adhesive bond: it holds against a pull away from the surface up to `pull`, and breaks beyond; it holds along the
+/// surface up to `shear`, and slides beyond; and it never pushes away.
+/// @param needed  the impulse that would keep the node in place [N s]
+/// @param normal  out of the surface, of length 1
+/// @param pull, shear  stress x area x dt [N s], >= 0
+BondImpulse bondImpulse(const btVector3& needed, const btVector3& normal, double pull, double shear);
+
+/// Holds a wet cloth on a surface that it touches, until it is pulled off with more than a force per area.
+///
+/// A node that Bullet reports in contact with a rigid body, and that is wet enough, is bonded to the place where it
+/// is. A bond gives the impulse that keeps the node on its place: pulls up to adhesion x area x dt, and along the
+/// surface up to shear strength x area x dt, beyond which the place moves on. A stronger pull breaks it, and then
+/// nothing acts on the node; it may bond again when Bullet reports a contact again. The other side of each impulse
+/// acts on the rigid body, at the node's place. What the body bears otherwise (links, springs, wind) is felt through
+/// the velocities that it gave the node a step before.
+///
+/// While Bullet still reports the contact, the weight alone decides whether the bond breaks: velocities away from the
+/// surface are then Bullet's own, getting the node out of the collision margin, and are held within the same limit.
+///
+/// Objects without contact response and links of multi-bodies are left out. Stresses follow the saturation: 0 at
+/// `minimumSaturation` and below, all at `peakSaturation`, `floodedShare` at 1.
+class Cling : public Effect {
+ public:
+  struct Parameters {
+    double adhesion = 50;            ///< pull that a bond holds [Pa], [0, inf)
+    double shearStrength = 20;       ///< along the surface [Pa], [0, inf)
+    double minimumSaturation = 0.1;  ///< no bond at and below, [0, 1)
+    double peakSaturation = 0.5;     ///< (minimumSaturation, 1]
+    double floodedShare = 0.5;       ///< of both stresses, at saturation 1 [-], [0, 1]; unused if peakSaturation is 1
+  };
+
+  /// Throws std::invalid_argument naming the field and the value.
+  explicit Cling(Parameters parameters);
+
+  const Parameters& parameters() const { return m_parameters; }
+  /// Throws std::invalid_argument, and then nothing changes. Bonds stay.
+  void setParameters(Parameters parameters);
+
+  /// Share of the stresses at a saturation, [0, 1].
+  double share(double saturation) const;
+
+  /// Nodes that are held now.
+  int bonds() const { return m_bondCount; }
+  bool isBonded(int node) const {
+    return node >= 0 && static_cast<std::size_t>(node) < m_bonds.size() &&
+           m_bonds[static_cast<std::size_t>(node)].object != nullptr;
+  }
+
+  const char* name() const override { return "Cling"; }
+  Stage stage() const override { return Stage::forces; }
+  /// Throws std::invalid_argument when Bullet lists no contacts of this body's nodes, with the reason.
+  void attach(WetCloth& cloth) override;
+  void detach(WetCloth& cloth) override;
+  void apply(WetCloth& cloth, const Step& step) override;
+  /// When what it clings to has moved away, or is gone.
+  bool wakes(const WetCloth& cloth, const Step& step) const override;
+
+  /// Bonds looked at so far: for tests that count work.
+  long long nodesVisited() const { return m_nodesVisited; }
+
+ private:
+  struct Bond {
+    btCollisionObject* object = nullptr;    // null: no bond
+    int proxy = 0;                          // of the broadphase, which tells it from one at the same address
+    btVector3 anchor = btVector3(0, 0, 0);  // where the node is held, in the object's frame
+    btVector3 normal = btVector3(0, 0, 0);  // in the object's frame
+    bool isReported = false;                // by Bullet, in the last substep
+  };
+
+  bool knowsContacts(const WetCloth& cloth, const Step& step);
+  void renew(WetCloth& cloth, bool knowsContacts);
+  void take(WetCloth& cloth, const RigidContact& contact);
+  void hold(WetCloth& cloth, const Step& step, std::size_t node);
+  void release(Bond& bond);
+
+  Parameters m_parameters;
+  WetnessCurve m_curve;
+  std::vector<Bond> m_bonds;  // by node
+  std::vector<double> m_areas;
+  int m_bondCount = 0;
+  double m_nextTime = -1;  // of a step without sleep in between [s]; < 0: none before
+  long long m_nodesVisited = 0;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,224 @@
+#include "bullet_wetcloth/effects/ContactWetting.h"
+
+#include "bullet_wetcloth/Contacts.h"
+#include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/WetClothWorld.h"
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+// An exponential never arrives: a node that is nearer to full than this takes the rest, and two that differ less count
+// as alike.
+constexpr double kNegligible = 1e-13;
+
+void requireFilm(const std::string& field, double water) {
+  if (!(water >= 0)) rejectValue(field, water, ">= 0 (infinite is allowed)");
+}
+
+// The part of `mass` that a node has room for, so that not even a rounding goes above its capacity.
+double fitting(const Water& water, std::size_t node, double mass) {
+  const double capacity = water.capacity(node);
+  const double held = water.held(node);
+  const double most = std::max(0.0, capacity - held);
+  return std::min(mass, held + most > capacity ? std::nextafter(most, 0.0) : most);
+}
+
+btVector3 velocityOf(const btCollisionObject& object, const btVector3& place) {
+  const btRigidBody* rigid = btRigidBody::upcast(&object);
+  if (!rigid) return {0, 0, 0};
+  return rigid->getVelocityInLocalPoint(place - rigid->getCenterOfMassPosition());
+}
+
+// Its arrays are those of the body as it was when it was last looked at.
+bool isUpToDate(const WetCloth& cloth) { return cloth.nodeCount() == cloth.body().m_nodes.size(); }
+
+bool wetsCloths(const WetCloth& cloth) {
+  for (const auto& effect : cloth.effects()) {
+    const auto* wetting = dynamic_cast<const ContactWetting*>(effect.get());
+    if (wetting && wetting->parameters().cloths) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+double filmUptake(double held, double capacity, double conductance, double film) {
+  const double missing = capacity - held;
+  if (!(missing > 0)) return 0;
+  double taken = missing * -std::expm1(-conductance / capacity);
+  if (conductance > 0 && missing - taken <= kNegligible * capacity) taken = missing;
+  return std::min(taken, film);
+}
+
+double equalisingFlow(double difference, double responseA, double responseB, double conductance) {
+  const double response = responseA + responseB;
+  return difference * -std::expm1(-conductance * response) / response;
+}
+
+ContactWetting::ContactWetting(Parameters parameters) : m_parameters(std::move(parameters)) {
+  requireNotNegative("ContactWetting.rate", m_parameters.rate);
+  const std::vector<WetBody>& bodies = m_parameters.wetBodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::string field = "ContactWetting.wetBodies[" + std::to_string(i) + "]";
+    if (!bodies[i].body) reject(field + ".body", "must not be null");
+    requireFilm(field + ".water", bodies[i].water);
+    for (std::size_t k = 0; k < i; ++k) {
+      if (bodies[k].body == bodies[i].body) reject(field + ".body", "is there twice");
+    }
+  }
+}
+
+void ContactWetting::setRate(double rate) {
+  requireNotNegative("ContactWetting.rate", rate);
+  m_parameters.rate = rate;
+}
+
+void ContactWetting::setFilm(const btCollisionObject& body, double water) {
+  requireFilm("ContactWetting.water", water);
+  if (!m_whyNoRigidContacts.empty()) reject("ContactWetting.wetBodies", m_whyNoRigidContacts);
+  if (double* film = filmOn(&body)) {
+    *film = water;
+  } else {
+    m_parameters.wetBodies.push_back({&body, water});
+  }
+}
+
+double ContactWetting::film(const btCollisionObject& body) const {
+  for (const WetBody& wet : m_parameters.wetBodies) {
+    if (wet.body == &body) return wet.water;
+  }
+  return 0;
+}
+
+double* ContactWetting::filmOn(const btCollisionObject* body) {
+  for (WetBody& wet : m_parameters.wetBodies) {
+    if (wet.body == body) return &wet.water;
+  }
+  return nullptr;
+}
+
+void ContactWetting::attach(WetCloth& cloth) {
+  m_whyNoRigidContacts = whyNoRigidContacts(cloth);
+  if (!m_parameters.wetBodies.empty() && !m_whyNoRigidContacts.empty()) {
+    reject("ContactWetting.wetBodies", m_whyNoRigidContacts);
+  }
+  const std::string whyNoCloths = whyNoFaceContacts(cloth);
+  if (m_parameters.cloths && !whyNoCloths.empty()) {
+    reject("ContactWetting.cloths", whyNoCloths + "; set it to false for wet rigid bodies alone");
+  }
+  cloth.restMesh();
+  m_contactsOfNode.resize(std::max(m_contactsOfNode.size(), cloth.water().size()));
+}
+
+void ContactWetting::apply(WetCloth& cloth, const Step& step) {
+  if (!m_parameters.wetBodies.empty()) {
+    // A body whose nodes and triangles both collide lists what touches twice.
+    const bool hasNodeContacts = whyNoNodeContacts(cloth).empty();
+    RigidContacts(cloth).visit(
+        [&](const RigidContact& contact) { takeFromFilm(cloth, step, contact, hasNodeContacts); });
+  }
+  if (!m_parameters.cloths) return;
+  const btAlignedObjectArray<btSoftBody*>& bodies = cloth.world().softBodies();
+  for (int i = 0; i < bodies.size(); ++i) {
+    WetCloth* const other = bodies[i] == &cloth.body() ? nullptr : cloth.world().find(*bodies[i]);
+    if (!other || !isUpToDate(*other) || isSeenToBy(cloth, *other)) continue;
+    exchange(cloth, *other, step);
+    exchange(*other, cloth, step);
+  }
+}
+
+void ContactWetting::takeFromFilm(WetCloth& cloth, const Step& step, const RigidContact& contact,
+                                  bool hasNodeContacts) {
+  if (contact.point.count == 3 && hasNodeContacts) return;
+  double* const film = filmOn(contact.object);
+  if (!film || !(*film > 0)) return;
+  Water& water = cloth.water();
+  for (int k = 0; k < contact.point.count; ++k) {
+    const int node = contact.point.nodes[static_cast<std::size_t>(k)];
+    const std::size_t i = static_cast<std::size_t>(node);
+    const double area = contact.point.count == 1
+                            ? contactArea(cloth, i)
+                            : cloth.restMesh().triangles()[static_cast<std::size_t>(contact.face)].area;
+    const double conductance = m_parameters.rate * area * contact.point.weights[static_cast<std::size_t>(k)] * step.dt;
+    const double uptake = filmUptake(water.held(i), water.capacity(i), conductance, *film);
+    const double taken = fitting(water, i, uptake);
+    if (!(taken > 0)) continue;
+    const btVector3 velocity = velocityOf(*contact.object, cloth.body().m_nodes[node].m_x);
+    const double before = water.held(i);
+    water.absorb(i, taken, velocity.x(), velocity.y(), velocity.z());
+    *film = std::max(0.0, *film - (water.held(i) - before));
+    ++m_nodesVisited;
+  }
+}
+
+// Whether the other cloth has the effect, too, and was added first.
+bool ContactWetting::isSeenToBy(const WetCloth& cloth, const WetCloth& other) const {
+  for (const auto& candidate : cloth.world().cloths()) {
+    if (candidate.get() == &cloth) return false;
+    if (candidate.get() == &other) return wetsCloths(other);
+  }
+  return false;
+}
+
+void ContactWetting::exchange(WetCloth& nodesOf, WetCloth& facesOf, const Step& step) {
+  FaceContacts contacts(nodesOf.body(), facesOf.body(), nodesOf.isInDeformableWorld());
+  if (contacts.size() == 0) return;
+  // Allocates when a larger cloth is met for the first time.
+  m_contactsOfNode.resize(std::max(m_contactsOfNode.size(), nodesOf.water().size()));
+  contacts.visit([&](const FaceContact& contact) { m_contactsOfNode[static_cast<std::size_t>(contact.node)] = 0; });
+  contacts.visit([&](const FaceContact& contact) { ++m_contactsOfNode[static_cast<std::size_t>(contact.node)]; });
+  contacts.visit([&](const FaceContact& contact) {
+    const std::size_t node = static_cast<std::size_t>(contact.node);
+    const double area = contactArea(nodesOf, node) / (2.0 * m_contactsOfNode[node]);
+    exchange(nodesOf, facesOf, contact, m_parameters.rate * area * step.dt);
+  });
+}
+
+// A triangle's saturation is that of the point that touches, and what it takes or gives is shared out by the same
+// weights: so it changes by the sum of b^2 / C per water.
+void ContactWetting::exchange(WetCloth& nodesOf, WetCloth& facesOf, const FaceContact& contact, double conductance) {
+  const std::size_t node = static_cast<std::size_t>(contact.node);
+  double faceSaturation = 0;
+  double faceResponse = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t corner = static_cast<std::size_t>(contact.point.nodes[k]);
+    const double weight = contact.point.weights[k];
+    faceSaturation += weight * facesOf.water().saturation(corner);
+    faceResponse += weight * weight / facesOf.water().capacity(corner);
+  }
+  const double difference = nodesOf.water().saturation(node) - faceSaturation;
+  if (!(std::fabs(difference) > kNegligible)) return;
+  const double flow = equalisingFlow(difference, 1 / nodesOf.water().capacity(node), faceResponse, conductance);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double share = contact.point.weights[k] * std::fabs(flow);
+    if (flow > 0) {
+      give(nodesOf, contact.node, facesOf, contact.point.nodes[k], share);
+    } else {
+      give(facesOf, contact.point.nodes[k], nodesOf, contact.node, share);
+    }
+  }
+}
+
+void ContactWetting::give(WetCloth& from, int fromNode, WetCloth& to, int toNode, double mass) {
+  const std::size_t receiver = static_cast<std::size_t>(toNode);
+  const double wanted = fitting(to.water(), receiver, mass);
+  if (!(wanted > 0)) return;
+  const double moved = from.water().drip(static_cast<std::size_t>(fromNode), wanted);
+  if (!(moved > 0)) return;
+  const btVector3& velocity = from.body().m_nodes[fromNode].m_v;
+  to.water().absorb(receiver, moved, velocity.x(), velocity.y(), velocity.z());
+  ++m_nodesVisited;
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,94 @@
+#pragma once
+
+#include "bullet_wetcloth/Effect.h"
+
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+class FaceContacts;
+struct FaceContact;
+struct RigidContact;
+
+/// Water that a node takes from a film in dt, exact for any dt: from dw/dt = k A (1 - w/C),
+/// (C - w) (1 - exp(-k A dt / C)), and no more than the film has.
+/// @param held, capacity  w and C [kg]
+/// @param conductance  k A dt: rate x area x dt [kg]
+/// @param film  what is there [kg]
+double filmUptake(double held, double capacity, double conductance, double film);
+
+/// Water that goes from a to b in dt when it flows by the difference of their saturations, exact for any dt: from
+/// dw_b/dt = G (s_a - s_b), (s_a - s_b) (1 - exp(-G dt (r_a + r_b))) / (r_a + r_b); < 0 when it goes from b to a.
+/// @param difference  s_a - s_b [-]
+/// @param responseA, responseB  change of the saturation per water, r: 1/capacity for a node [1/kg], sum > 0
+/// @param conductance  G dt [kg]
+double equalisingFlow(double difference, double responseA, double responseB, double conductance);
+
+/// Wets a cloth where it touches something wet: a rigid body with a film of water on it, or another WetCloth.
+///
+/// Water goes by the difference of saturation: a film counts as 1. A node takes up through its own area. Where two
+/// cloths touch, Bullet lists contacts of the nodes of each with the triangles of the other, so each of these has half
+/// of its node's area, shared between the contacts that the node has. What one cloth gives is `dripped` in its ledger
+/// and `absorbed` in the other's; it brings the velocity of the node that it leaves, a film's that of its body.
+///
+/// One of two cloths needs the effect. If both have it, the one that was added to the WetClothWorld first sees to the
+/// pair. Contacts are those of the last substep.
+class ContactWetting : public Effect {
+ public:
+  /// A rigid body (or any collision object that is not soft) with water on it.
+  struct WetBody {
+    const btCollisionObject* body = nullptr;                 ///< told by its address
+    double water = std::numeric_limits<double>::infinity();  ///< film on it [kg], [0, inf]
+  };
+
+  struct Parameters {
+    std::vector<WetBody> wetBodies = {};
+    /// Exchange water with other WetCloths that touch.
+    bool cloths = true;
+    /// Per area and difference of saturation [kg/(m^2 s)], [0, inf). As fast as Absorption wets cotton of 150 g/m^2:
+    /// 0.84 x 0.150 kg/m^2 / 8.844 s.
+    double rate = 0.0142;
+  };
+
+  /// Throws std::invalid_argument naming the field and the value.
+  explicit ContactWetting(Parameters parameters);
+
+  const Parameters& parameters() const { return m_parameters; }
+  /// Throws std::invalid_argument, and then nothing changes.
+  void setRate(double rate);
+  /// Water on a body from now on [kg], [0, inf]; a body that is not known yet is added. Throws std::invalid_argument,
+  /// also when Bullet lists no contacts with rigid bodies.
+  void setFilm(const btCollisionObject& body, double water);
+  /// Water left on a body [kg]; 0 for one that is not known.
+  double film(const btCollisionObject& body) const;
+
+  const char* name() const override { return "ContactWetting"; }
+  Stage stage() const override { return Stage::sources; }
+  /// Throws std::invalid_argument when Bullet does not list the contacts that are asked for, with the reason.
+  void attach(WetCloth& cloth) override;
+  void apply(WetCloth& cloth, const Step& step) override;
+
+  /// Times that water went to or from a node: for tests that count work.
+  long long nodesVisited() const { return m_nodesVisited; }
+
+ private:
+  double* filmOn(const btCollisionObject* body);
+  void takeFromFilm(WetCloth& cloth, const Step& step, const RigidContact& contact, bool hasNodeContacts);
+  bool isSeenToBy(const WetCloth& cloth, const WetCloth& other) const;
+  void exchange(WetCloth& nodesOf, WetCloth& facesOf, const Step& step);
+  void exchange(WetCloth& nodesOf, WetCloth& facesOf, const FaceContact& contact, double conductance);
+  void give(WetCloth& from, int fromNode, WetCloth& to, int toNode, double mass);
+
+  Parameters m_parameters;
+  std::string m_whyNoRigidContacts;
+  std::vector<int> m_contactsOfNode;
+  long long m_nodesVisited = 0;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
