@@ -31,13 +31,15 @@ btVector3 dampingImpulse(const btVector3& ab, const btVector3& velocity, double 
 /// What a factor on the stiffness means depends on what holds the cloth together:
 /// - HookeSprings, in any world: the springs' K [N/m] is multiplied. Add the two in any order, except in the deformable
 ///   world.
-/// - Bullet's position-based links: the share kLST of its error that a link takes back in each of
-///   btSoftBody::m_cfg.piterations is multiplied, up to 1. One link of stiffness k that holds a weight sags by
-///   g dt^2 (1 - k)^n / (1 - (1 - k)^n) after n iterations, whatever the weight: at k = 0.5 and 10 iterations a
-///   thousandth of what free fall does in the step. So there it softens a cloth of few iterations, or a net in which
-///   each link waits for many others, and is no material constant.
+/// - Bullet's position-based links: the share k = kLST of its error that a link takes back in each of
+///   btSoftBody::m_cfg.piterations is multiplied, up to 1. A single link that holds a weight sags by
+///   g dt^2 (1 - k)^n / (1 - (1 - k)^n) after n iterations, whatever the weight: at k = 0.5 and n = 10 a thousandth of
+///   g dt^2. In a net, where each link waits for many others, the sag that the iterations leave anyhow grows about as
+///   (2 - k) / k: three times at k = 0.5. So a factor softens, but is no material constant: what it does depends on
+///   n, dt and the mesh, and where the iterations converge it does nothing.
 /// - Bullet's own springs in the deformable world (btDeformableMassSpringForce) have one stiffness for all links and
-///   read none per link: attach() refuses factors other than 1 there, unless HookeSprings were added before.
+///   read none per link: attach() refuses factors other than 1 there, unless HookeSprings were added before. (Once
+///   those are removed again, the factors have nothing to act on.)
 ///
 /// Damping acts in every world, HookeSprings or not.
 class WetStiffness : public Effect {
