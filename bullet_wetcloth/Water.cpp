@@ -47,17 +47,26 @@ void Water::runOff(std::size_t node, double mass, double vx, double vy, double v
   m_movedSinceCommit = true;  // no revision: the water is as it was
 }
 
+// What leaves is a sample of the node's water: its share of what arrived since the last commit goes on with the
+// momentum that it brought. So a node can pass on more than it weighed.
 void Water::move(std::size_t from, std::size_t to, double mass, double vx, double vy, double vz) {
   const double moved = std::min(mass, m_held[from]);
   if (!(moved > 0) || from == to) return;
+  Arrival& source = m_arrivals[from];
+  Arrival& target = m_arrivals[to];
+  const double fresh = std::min(moved / m_held[from] * source.mass, moved);
+  const double old = moved - fresh;
+  const double velocity[3] = {vx, vy, vz};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double passedOn = fresh > 0 ? source.momentum[axis] * (fresh / (source.mass + source.runOff)) : 0;
+    source.momentum[axis] -= passedOn;
+    target.momentum[axis] += passedOn + old * velocity[axis];
+  }
+  source.mass -= fresh;
+  source.shifted -= old;
+  target.mass += moved;
   m_held[from] -= moved;
   m_held[to] += moved;
-  m_arrivals[from].shifted -= moved;
-  Arrival& arrival = m_arrivals[to];
-  arrival.mass += moved;
-  arrival.momentum[0] += moved * vx;
-  arrival.momentum[1] += moved * vy;
-  arrival.momentum[2] += moved * vz;
   m_movedWithin += moved;
   m_leftSinceCommit = true;
   markMoved();

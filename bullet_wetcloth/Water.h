@@ -96,7 +96,8 @@ class Water {
   double drip(std::size_t node, double mass) { return take(node, mass, m_dripped); }
   /// Vapour that leaves at the node's own velocity; at most what is held. Returns what left.
   double evaporate(std::size_t node, double mass) { return take(node, mass, m_evaporated); }
-  /// Water that moves inside the cloth, with the velocity of the node it leaves.
+  /// Water that moves inside the cloth, with the velocity (vx, vy, vz) of the node it leaves [m/s]; what of it came to
+  /// that node in this step goes on with the momentum that it brought. At most what is held.
   void move(std::size_t from, std::size_t to, double mass, double vx, double vy, double vz);
   /// Water that moves between many nodes at once: node i ends with `held[i]` [kg], finite and >= 0. The sum must be
   /// what is held now, to rounding, which is booked under `initial`. The momentum that moved with it is the caller's

@@ -25,7 +25,7 @@ class RestMesh {
   };
   struct Triangle {
     std::array<int, 3> nodes;
-    std::array<int, 3> edges;  ///< edges[k] is opposite nodes[k]; numbers in edges()
+    std::array<int, 3> edges;  ///< edges[k] is opposite nodes[k]; numbers in edges(), -1 from a node to itself
     double area;               ///< at rest [m^2]; 0 when the lengths make no triangle
   };
   /// A range of node numbers.
