@@ -57,7 +57,7 @@ TEST(IntrinsicDelaunay, AGridOfSquaresIsTheFivePointStencil) {
 // A rhombus with the angles 40 and 140 degrees, split along its long diagonal: the short one is Delaunay, and from it
 // the angles are 40 and 70 degrees.
 TEST(IntrinsicDelaunay, FlipsTheLongDiagonalOfARhombus) {
-  const double half = 20 * SIMD_PI / 180;
+  const double half = 20 * kPi / 180;
   const std::vector<Point> points = {
       {-std::cos(half), 0}, {0, -std::sin(half)}, {std::cos(half), 0}, {0, std::sin(half)}};
   const auto edges = delaunayWeights(measure(points, {{0, 1, 2}, {0, 2, 3}}));
@@ -105,8 +105,8 @@ TEST(IntrinsicDelaunay, IsExactForLinearFunctionsInAnOrthotropicMetric) {
   const double weft = 4e-4;
   for (const double degrees : {0.0, 30.0, 45.0, 110.0}) {
     TransportScene scene(grid(13, 13, 1, 1, 0.2, 7));
-    const double c = std::cos(degrees * SIMD_PI / 180);
-    const double s = std::sin(degrees * SIMD_PI / 180);
+    const double c = std::cos(degrees * kPi / 180);
+    const double s = std::sin(degrees * kPi / 180);
     std::vector<double> along;
     for (int i = 0; i < scene.count(); ++i) along.push_back(5 + c * scene.x(i) + s * scene.y(i));
     const auto edges = delaunayWeights(orthotropicTriangles(scene.cloth().restMesh(), along, warp, weft));

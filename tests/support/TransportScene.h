@@ -12,6 +12,8 @@
 namespace wetcloth_test {
 namespace transport {
 
+inline constexpr double kPi = 3.14159265358979323846;
+
 /// Points and triangles of a cloth at rest.
 struct Mesh {
   std::vector<btVector3> points;
