@@ -116,16 +116,14 @@ void ContactWetting::attach(WetCloth& cloth) {
   if (m_parameters.cloths && !whyNoCloths.empty()) {
     reject("ContactWetting.cloths", whyNoCloths + "; set it to false for wet rigid bodies alone");
   }
+  m_hasNodeContacts = whyNoNodeContacts(cloth).empty();
   cloth.restMesh();
   m_contactsOfNode.resize(std::max(m_contactsOfNode.size(), cloth.water().size()));
 }
 
 void ContactWetting::apply(WetCloth& cloth, const Step& step) {
   if (!m_parameters.wetBodies.empty()) {
-    // A body whose nodes and triangles both collide lists what touches twice.
-    const bool hasNodeContacts = whyNoNodeContacts(cloth).empty();
-    RigidContacts(cloth).visit(
-        [&](const RigidContact& contact) { takeFromFilm(cloth, step, contact, hasNodeContacts); });
+    RigidContacts(cloth).visit([&](const RigidContact& contact) { takeFromFilm(cloth, step, contact); });
   }
   if (!m_parameters.cloths) return;
   const btAlignedObjectArray<btSoftBody*>& bodies = cloth.world().softBodies();
@@ -137,9 +135,9 @@ void ContactWetting::apply(WetCloth& cloth, const Step& step) {
   }
 }
 
-void ContactWetting::takeFromFilm(WetCloth& cloth, const Step& step, const RigidContact& contact,
-                                  bool hasNodeContacts) {
-  if (contact.point.count == 3 && hasNodeContacts) return;
+void ContactWetting::takeFromFilm(WetCloth& cloth, const Step& step, const RigidContact& contact) {
+  // A body whose nodes and triangles both collide lists what touches twice.
+  if (contact.point.count == 3 && m_hasNodeContacts) return;
   double* const film = filmOn(contact.object);
   if (!film || !(*film > 0)) return;
   Water& water = cloth.water();

@@ -37,7 +37,7 @@ double equalisingFlow(double difference, double responseA, double responseB, dou
 /// and `absorbed` in the other's; it brings the velocity of the node that it leaves, a film's that of its body.
 ///
 /// One of two cloths needs the effect. If both have it, the one that was added to the WetClothWorld first sees to the
-/// pair. Contacts are those of the last substep.
+/// pair. Contacts are those of the last substep. The first step in which another cloth is met may allocate.
 class ContactWetting : public Effect {
  public:
   /// A rigid body (or any collision object that is not soft) with water on it.
@@ -78,7 +78,7 @@ class ContactWetting : public Effect {
 
  private:
   double* filmOn(const btCollisionObject* body);
-  void takeFromFilm(WetCloth& cloth, const Step& step, const RigidContact& contact, bool hasNodeContacts);
+  void takeFromFilm(WetCloth& cloth, const Step& step, const RigidContact& contact);
   bool isSeenToBy(const WetCloth& cloth, const WetCloth& other) const;
   void exchange(WetCloth& nodesOf, WetCloth& facesOf, const Step& step);
   void exchange(WetCloth& nodesOf, WetCloth& facesOf, const FaceContact& contact, double conductance);
@@ -86,6 +86,7 @@ class ContactWetting : public Effect {
 
   Parameters m_parameters;
   std::string m_whyNoRigidContacts;
+  bool m_hasNodeContacts = false;
   std::vector<int> m_contactsOfNode;
   long long m_nodesVisited = 0;
 };
