@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
@@ -56,7 +55,7 @@ double sinkingSpeed(double arealDensity, double fibreDensity, double waterDensit
   return std::copysign(std::sqrt(2 * std::fabs(weight) / (waterDensity * dragCoefficient)), weight);
 }
 
-WaterDrag::WaterDrag(Parameters parameters) : m_parameters(std::move(parameters)) {
+WaterDrag::WaterDrag(const Parameters& parameters) : m_parameters(parameters) {
   if (m_parameters.surface) requireValid("WaterDrag.surface", *m_parameters.surface);
   requireNotNegative("WaterDrag.dragCoefficient", m_parameters.dragCoefficient);
   requireNotNegative("WaterDrag.skinFriction", m_parameters.skinFriction);

@@ -48,7 +48,7 @@ class WaterDrag : public Effect {
   };
 
   /// Throws std::invalid_argument naming the field and the value.
-  explicit WaterDrag(Parameters parameters);
+  explicit WaterDrag(const Parameters& parameters);
 
   const Parameters& parameters() const { return m_parameters; }
   /// Throws std::invalid_argument, and then nothing changes.

@@ -171,10 +171,10 @@ std::vector<int> dripping(ClothScene& scene, Dripping::Parameters parameters = {
   return nodes;
 }
 
-ClothScene::Builder built(const wetcloth::ClothPatch& patch, std::function<void(btSoftBody&)> prepare = {}) {
+ClothScene::Builder built(const wetcloth::ClothPatch& patch, const std::function<void(btSoftBody&)>& prepare) {
   return [=](btSoftBodyWorldInfo& info) {
     std::unique_ptr<btSoftBody> body = patch.build(info);
-    if (prepare) prepare(*body);
+    prepare(*body);
     return body;
   };
 }

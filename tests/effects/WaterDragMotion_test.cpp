@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace wetcloth_test {
@@ -203,8 +204,8 @@ TEST(WaterDragStability, StepsConvergeToTheClosedForm) {
 
 class WaterDragSleep : public testing::TestWithParam<WorldKind> {};
 
-TEST_P(WaterDragSleep, IsEndedByACurrentOrALevelThatChanges) {
-  for (const bool isCurrent : {true, false}) {
+TEST_P(WaterDragSleep, IsEndedByACurrentALevelThatChangesOrDrainedWater) {
+  for (const char* change : {"current", "level", "drained"}) {
     core::CoreScene scene(GetParam(), core::sailPatch(4), kNoGravity);
     wetcloth::WetClothWorld wet(scene.world());
     WaterDrag::Parameters parameters = deepWater();
@@ -216,11 +217,12 @@ TEST_P(WaterDragSleep, IsEndedByACurrentOrALevelThatChanges) {
     water.setSurface(surface);
     scene.bullet.step(60);
     ASSERT_EQ(scene.body().getActivationState(), ISLAND_SLEEPING) << "nothing has changed";
-    if (isCurrent) surface.velocity = btVector3(0, 0, btScalar(0.1));
-    if (!isCurrent) surface.offset = -0.6;
+    if (change == std::string("current")) surface.velocity = btVector3(0, 0, btScalar(0.1));
+    if (change == std::string("level")) surface.offset = -0.6;
+    if (change == std::string("drained")) surface.offset = 3;
     water.setSurface(surface);
     scene.bullet.step(2);
-    EXPECT_TRUE(scene.body().isActive()) << isCurrent;
+    EXPECT_TRUE(scene.body().isActive()) << change;
   }
 }
 
