@@ -9,7 +9,7 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-constexpr double kQuiet = 1e-9;  // of the capacity, moved in a step
+constexpr double kQuiet = 1e-9;  // of the capacity, moved in a second
 constexpr int kPatience = 64;    // quiet steps before it settles
 // More than kPatience quiet steps of another effect: two that settle must not keep each other awake.
 constexpr double kDisturbed = 1e-7;
@@ -26,17 +26,20 @@ void Settling::restart() {
 bool Settling::isSettled(const WetCloth& cloth, const Step& step) {
   if (!m_isSettled) return false;
   const Water& water = cloth.water();
-  const bool isDisturbed = water.moved() - m_movedBefore > kDisturbed * water.totalCapacity();
+  const bool isDisturbed =
+      water.moved() - m_movedBefore > kDisturbed * m_capacity || water.totalCapacity() != m_capacity;
   if (isDisturbed || (m_inputs == DependsOn::waterAndShape && shapeChanged(cloth, step))) restart();
   return m_isSettled;
 }
 
 void Settling::note(const WetCloth& cloth, const Step& step, double moved) {
   m_shape.resize(m_inputs == DependsOn::waterAndShape ? cloth.water().size() : 0);
-  const bool isQuiet = moved <= kQuiet * cloth.water().totalCapacity();
+  const double capacity = cloth.water().totalCapacity();
+  const bool isQuiet = moved <= kQuiet * capacity * std::min(step.dt, 1.0);
   m_quietSteps = isQuiet ? m_quietSteps + 1 : 0;
   if (m_quietSteps < kPatience) return;
   m_isSettled = true;
+  m_capacity = capacity;
   m_movedBefore = cloth.water().moved();
   if (m_inputs == DependsOn::waterAndShape) rememberShape(cloth, step);
 }

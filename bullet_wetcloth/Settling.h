@@ -13,9 +13,10 @@ inline namespace WETCLOTH_PRECISION {
 
 /// Tells an effect that moves water when it may idle, and when it must go on: a member of the effect.
 ///
-/// It settles once it has moved no more than 1e-9 of the cloth's capacity a step for 64 steps on end. It goes on when
-/// more than 1e-7 of the capacity has been moved since, by anyone or by hand; when the cloth's shape or gravity has
-/// changed, if it depends on them; and after restart().
+/// It settles once it has moved no more than 1e-9 of the cloth's capacity a second (and in a step, where that is
+/// longer) for 64 steps on end: by the second, since a short step moves little though much is left to move. It goes on
+/// when more than 1e-7 of the capacity has been moved since, by anyone or by hand; when the capacity has changed; when
+/// the cloth's shape or gravity has changed, if it depends on them; and after restart().
 class Settling {
  public:
   enum class DependsOn { water, waterAndShape };
@@ -37,6 +38,7 @@ class Settling {
   DependsOn m_inputs;
   int m_quietSteps = 0;
   bool m_isSettled = false;
+  double m_capacity = 0;           // when it settled
   double m_movedBefore = 0;        // Water::moved() when it settled
   std::vector<btVector3> m_shape;  // when it settled
   btVector3 m_gravity = btVector3(0, 0, 0);

@@ -55,10 +55,11 @@ TEST_P(SettlingOnEither, AfterSixtyFourQuietSteps) {
   EXPECT_EQ(resting.stepsUntilAwake(1000), 1000);
 }
 
-TEST_P(SettlingOnEither, QuietIsABillionthOfTheCapacity) {
+TEST_P(SettlingOnEither, QuietIsABillionthOfTheCapacityASecond) {
   Resting resting(GetParam());
-  for (int i = 0; i < 1000; ++i) EXPECT_FALSE(resting.step(1.01e-9 * resting.capacity())) << i;
-  for (int i = 0; i < kPatience; ++i) EXPECT_FALSE(resting.step(0.99e-9 * resting.capacity())) << i;
+  const double billionth = 1e-9 * resting.capacity() * resting.now.dt;
+  for (int i = 0; i < 1000; ++i) EXPECT_FALSE(resting.step(1.01 * billionth)) << i;
+  for (int i = 0; i < kPatience; ++i) EXPECT_FALSE(resting.step(0.99 * billionth)) << i;
   EXPECT_TRUE(resting.step(0));
 }
 

@@ -99,9 +99,7 @@ void Diffusion::rememberWarp(WetCloth& cloth) {
 }
 
 void Diffusion::apply(WetCloth& cloth, const Step& step) {
-  if (cloth.water().totalCapacity() != m_totalCapacity) m_settling.restart();
   if (m_settling.isSettled(cloth, step)) return;
-  m_totalCapacity = cloth.water().totalCapacity();
   if (m_flow->load(cloth.water())) {
     m_solver->forgetFactor();
     m_longestSubstep = longestExplicitStep(m_flow->edges(), m_flow->capacities());
@@ -121,8 +119,7 @@ void Diffusion::apply(WetCloth& cloth, const Step& step) {
   }
   m_flow->commit(cloth, m_fluxes);
   m_nodesVisited += static_cast<long long>(m_flow->nodeCount());
-  // A short step moves little though much is left to move.
-  m_settling.note(cloth, step, m_flow->moved() / std::min(step.dt, 1.0));
+  m_settling.note(cloth, step, m_flow->moved());
 }
 
 void Diffusion::setPotential() {

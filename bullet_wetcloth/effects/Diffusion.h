@@ -86,7 +86,6 @@ class Diffusion : public Effect {
   std::vector<double> m_fluxes;  // of each edge [kg]
   std::vector<double> m_substepFluxes;
   double m_longestSubstep = 0;
-  double m_totalCapacity = 0;
   long long m_nodesVisited = 0;
   long long m_substeps = 0;
 };

@@ -59,17 +59,14 @@ void Seepage::attach(WetCloth& cloth) {
 }
 
 void Seepage::apply(WetCloth& cloth, const Step& step) {
-  if (cloth.water().totalCapacity() != m_totalCapacity) m_settling.restart();
   if (m_settling.isSettled(cloth, step)) return;
-  m_totalCapacity = cloth.water().totalCapacity();
   m_flow->load(cloth.water());
   measureDepths(cloth, step);
   const double speed = m_parameters.speed * static_cast<double>(step.gravity.length()) / kEarthGravity;
   flow(std::isfinite(speed) ? speed : 0, step.dt);
   m_flow->commit(cloth, m_fluxes);
   m_nodesVisited += static_cast<long long>(m_flow->nodeCount());
-  // A short step moves little though much is left to move.
-  m_settling.note(cloth, step, m_flow->moved() / std::min(step.dt, 1.0));
+  m_settling.note(cloth, step, m_flow->moved());
 }
 
 void Seepage::measureDepths(const WetCloth& cloth, const Step& step) {

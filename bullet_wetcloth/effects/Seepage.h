@@ -68,7 +68,6 @@ class Seepage : public Effect {
   std::vector<double> m_outflow;        // of nodes, of saturated cloth at a speed of 1 m/s [kg/s]
   std::vector<double> m_fluxes;         // of edges [kg]
   std::vector<double> m_substepFluxes;  // [kg]
-  double m_totalCapacity = 0;
   long long m_nodesVisited = 0;
   long long m_substeps = 0;
 };
