@@ -80,6 +80,18 @@ TEST_P(TickCallbackChain, TheSlotIsGivenBackWithTheLastEffect) {
   EXPECT_FALSE(wet.isTickHooked());
 }
 
+TEST_P(TickCallbackChain, DetachingPutsTheApplicationsCallbackBack) {
+  CoreScene scene(GetParam());
+  Application application;
+  scene.world().setInternalTickCallback(Application::tick, &application, false);
+  {
+    wetcloth::WetClothWorld wet(scene.world());
+    addRecorder(wet.add(scene.body()), application, Stage::contact, "contact");
+  }
+  scene.bullet.step(1);
+  EXPECT_EQ(application.calls, Calls{"application"});
+}
+
 TEST_P(TickCallbackChain, NothingIsLeftBehind) {
   CoreScene scene(GetParam());
   Application application;

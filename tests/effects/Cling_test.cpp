@@ -1,4 +1,4 @@
-// A wet cloth on surfaces: what a bond gives, how much it holds, and how it lets go.
+// A wet cloth on surfaces: how much it holds, how it lets go, and what it does to rigid bodies.
 
 #include "tests/support/ContactScene.h"
 
@@ -9,35 +9,9 @@ using core::addCall;
 using core::RigidBody;
 using core::sameBits;
 using core::stateOf;
-using wetcloth::BondImpulse;
-using wetcloth::bondImpulse;
 using wetcloth::Cling;
 
 constexpr double kGravity = 9.81;
-
-// --- free function --------------------------------------------------------------------------------------------------
-
-TEST(Bond, PullsUpToItsLimitAndThenLetsGo) {
-  const btVector3 normal(0, -1, 0);
-  const BondImpulse held = bondImpulse({0, btScalar(0.9), 0}, normal, 1, 0);
-  EXPECT_FALSE(held.breaks);
-  EXPECT_EQ(held.impulse, btVector3(0, btScalar(0.9), 0));
-  const BondImpulse broken = bondImpulse({btScalar(0.1), btScalar(1.1), 0}, normal, 1, 5);
-  EXPECT_TRUE(broken.breaks);
-  EXPECT_EQ(broken.impulse, btVector3(0, 0, 0)) << "no kick, along the surface neither";
-}
-
-TEST(Bond, SlidesBeyondItsShearStrength) {
-  const btVector3 normal(0, 1, 0);
-  const BondImpulse held = bondImpulse({3, 0, 4}, normal, 1, 5.001);
-  EXPECT_FALSE(held.slides);
-  EXPECT_EQ(held.impulse, btVector3(3, 0, 4));
-  const BondImpulse slides = bondImpulse({3, btScalar(-0.5), 4}, normal, 1, 2.5);
-  EXPECT_TRUE(slides.slides);
-  EXPECT_NEAR(double((slides.impulse - btVector3(1.5, -0.5, 2)).length()), 0, 1e-6);  // rounding of btScalar
-}
-
-TEST(Bond, NeverPushesAway) { EXPECT_EQ(bondImpulse({0, 7, 0}, {0, 1, 0}, 1, 1).impulse, btVector3(0, 0, 0)); }
 
 // --- under a ceiling, on a wall
 // ---------------------------------------------------------------------------------------
@@ -309,44 +283,6 @@ TEST(ClingAsleep, WakesWhenItsHoldGoes) {
     scene.step(120);
     EXPECT_LT(centreOfMass(scene.body())[1], -0.5) << moves;
   }
-}
-
-// --- bad input ------------------------------------------------------------------------------------------------------
-
-TEST(ClingParameters, AreChecked) {
-  const double nan = std::nan("");
-  const auto why = [](auto change) {
-    Cling::Parameters parameters;
-    change(parameters);
-    return rejection([&] { Cling cling(parameters); });
-  };
-  EXPECT_EQ(why([](auto& p) { p.adhesion = -1; }), "Cling.adhesion = -1: must be finite and >= 0");
-  EXPECT_NE(why([&](auto& p) { p.adhesion = nan; }), "");
-  EXPECT_EQ(why([](auto& p) { p.shearStrength = -2; }), "Cling.shearStrength = -2: must be finite and >= 0");
-  EXPECT_EQ(why([](auto& p) { p.minimumSaturation = 1; }), "Cling.minimumSaturation = 1: must be in [0, 1)");
-  EXPECT_EQ(why([](auto& p) { p.peakSaturation = 0.1; }),
-            "Cling.peakSaturation = 0.1: must be in (minimumSaturation, 1]");
-  EXPECT_NE(why([&](auto& p) { p.peakSaturation = nan; }), "");
-  EXPECT_EQ(why([](auto& p) { p.floodedShare = 2; }), "Cling.floodedShare = 2: must be in [0, 1]");
-  Cling cling({});
-  EXPECT_THROW(cling.setParameters(stress(-1)), std::invalid_argument);
-  EXPECT_EQ(cling.parameters().adhesion, 50);
-  EXPECT_EQ(cling.share(0.1), 0);
-  EXPECT_DOUBLE_EQ(cling.share(0.3), 0.5);
-  EXPECT_DOUBLE_EQ(cling.share(0.5), 1);
-  EXPECT_DOUBLE_EQ(cling.share(1), 0.5);
-}
-
-TEST(ClingOnABody, SaysWhyItCannotWork) {
-  using Flags = btSoftBody::fCollision;
-  const auto why = [](WorldKind kind, int flags) {
-    ClothScene scene(kind, kEarthGravity, Lying().builder(kind));
-    scene.body().m_cfg.collisions = flags;
-    return rejection([&] { scene.cloth().add<Cling>(); });
-  };
-  EXPECT_NE(why(WorldKind::softRigid, Flags::CL_RS).find("clusters"), std::string::npos);
-  EXPECT_NE(why(WorldKind::deformable, Flags::SDF_RD | Flags::SDF_RDF).find("SDF_RDN"), std::string::npos);
-  EXPECT_NE(why(WorldKind::deformable, Flags::SDF_RS).find("SDF_RD"), std::string::npos);
 }
 
 WETCLOTH_IN_EVERY_WORLD(ClingInWorld);
