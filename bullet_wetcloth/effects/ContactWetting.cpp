@@ -114,7 +114,7 @@ void ContactWetting::attach(WetCloth& cloth) {
   }
   const std::string whyNoCloths = whyNoFaceContacts(cloth);
   if (m_parameters.cloths && !whyNoCloths.empty()) {
-    reject("ContactWetting.cloths", whyNoCloths + "; set it to false for wet rigid bodies alone");
+    reject("ContactWetting.cloths", whyNoCloths);
   }
   m_hasNodeContacts = whyNoNodeContacts(cloth).empty();
   cloth.restMesh();

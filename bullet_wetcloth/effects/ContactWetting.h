@@ -48,8 +48,9 @@ class ContactWetting : public Effect {
 
   struct Parameters {
     std::vector<WetBody> wetBodies = {};
-    /// Exchange water with other WetCloths that touch.
-    bool cloths = true;
+    /// Exchange water with other WetCloths that touch. Both bodies then need fCollision::VF_SS (position-based worlds)
+    /// or VF_DD (deformable) in m_cfg.collisions, without which Bullet lists no such contacts.
+    bool cloths = false;
     /// Per area and difference of saturation [kg/(m^2 s)], [0, inf). As fast as Absorption wets cotton of 150 g/m^2:
     /// 0.84 x 0.150 kg/m^2 / 8.844 s.
     double rate = 0.0142;

@@ -54,6 +54,7 @@ class TwoTowels {
 
 ContactWetting::Parameters atRate(double rate) {
   ContactWetting::Parameters parameters;
+  parameters.cloths = true;
   parameters.rate = rate;
   return parameters;
 }
@@ -73,7 +74,7 @@ TEST_P(ContactWettingOfCloths, TwoTowelsPressedTogetherBecomeEquallyWet) {
 
 TEST_P(ContactWettingOfCloths, WhatOneDripsTheOtherAbsorbs) {
   TwoTowels towels(GetParam());
-  towels.lower().add<ContactWetting>();
+  towels.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
   towels.upper().setSaturation(0.6);
   for (int i = 0; i < 120; ++i) {
     towels.scene.step(1);
@@ -113,9 +114,9 @@ TEST_P(ContactWettingOfCloths, TheRateIsPerAreaOfContactOnce) {
 TEST_P(ContactWettingOfCloths, APairWithTheEffectOnBothIsSeenToOnce) {
   TwoTowels once(GetParam());
   TwoTowels twice(GetParam());
-  once.lower().add<ContactWetting>();
-  twice.upper().add<ContactWetting>();
-  twice.lower().add<ContactWetting>();
+  once.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
+  twice.upper().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
+  twice.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
   for (TwoTowels* towels : {&once, &twice}) {
     towels->upper().setSaturation(0.6);
     towels->scene.step(120);
@@ -132,7 +133,7 @@ TEST_P(ContactWettingOfCloths, APairWithTheEffectOnBothIsSeenToOnce) {
 
 TEST_P(ContactWettingOfCloths, EitherOfTheTwoMayHaveTheEffect) {
   TwoTowels towels(GetParam());
-  towels.upper().add<ContactWetting>();
+  towels.upper().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
   towels.upper().setSaturation(0.6);
   towels.scene.step(120);
   EXPECT_GT(towels.lower().ledger().absorbed, 0);
@@ -142,7 +143,7 @@ TEST_P(ContactWettingOfCloths, EitherOfTheTwoMayHaveTheEffect) {
 TEST_P(ContactWettingOfCloths, DryTowelsAreAsIfItWereNotThere) {
   TwoTowels with(GetParam());
   TwoTowels without(GetParam());
-  ContactWetting& wetting = with.lower().add<ContactWetting>();
+  ContactWetting& wetting = with.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
   with.scene.step(60);
   without.scene.step(60);
   EXPECT_EQ(wetting.nodesVisited(), 0);
@@ -153,7 +154,7 @@ TEST_P(ContactWettingOfCloths, DryTowelsAreAsIfItWereNotThere) {
 
 TEST_P(ContactWettingOfCloths, EquallyWetTowelsIdle) {
   TwoTowels towels(GetParam());
-  ContactWetting& wetting = towels.lower().add<ContactWetting>();
+  ContactWetting& wetting = towels.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
   towels.lower().setSaturation(1);
   towels.upper().setSaturation(1);
   towels.scene.step(60);
@@ -202,7 +203,7 @@ TEST_P(ContactWettingOfCloths, MomentumIsKept) {
 TEST_P(ContactWettingOfCloths, ATowelThatIsDeletedIsNotLookedAt) {
   TwoTowels towels(GetParam());
   towels.scene.wet().setLog({});
-  towels.lower().add<ContactWetting>();
+  towels.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
   towels.upper().setSaturation(0.6);
   towels.scene.step(60);
   const double held = towels.lower().ledger().held;
@@ -215,7 +216,7 @@ TEST_P(ContactWettingOfCloths, ATowelThatIsDeletedIsNotLookedAt) {
 TEST_P(ContactWettingOfCloths, GoesOnAfterACut) {
   TwoTowels towels(GetParam());
   towels.scene.wet().setLog({});
-  towels.lower().add<ContactWetting>();
+  towels.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
   towels.upper().setSaturation(0.6);
   towels.scene.step(60);
   const double all = towels.held();
