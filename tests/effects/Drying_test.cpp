@@ -188,7 +188,7 @@ TEST_P(DryingInWorld, OfAPinnedClothFollowsTheClosedForm) {
   Drying::Parameters parameters;
   parameters.air = btVector3(5, 0, 0);
   ClothScene scene(GetParam(), kEarthGravity, patch);
-  scene.cloth().add<Drying>(parameters);
+  scene.cloth().add<Drying>(asWarmAsTheAir(parameters));
   scene.cloth().setSaturation(1);
   scene.step(512, kExactSubstep);
   const double capacity = scene.cloth().capacity(4);

@@ -105,6 +105,7 @@ TEST(WaterCycleProperty, AnyMeshAnyEffectsAnyStep) {
     const bool isPatch = *rc::gen::inRange(0, 2) == 0;
     CoreScene scene(kind, [&](btSoftBodyWorldInfo& info) { return isPatch ? anyPatch(info) : anySoup(info); });
     WaterCycle::giveWater(scene.bullet.info(), btScalar(anyBetween(-0.5, 0.5)));
+    WaterCycle::letTouch(scene.bullet, scene.body());
     wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
     wet.setLog({});
     wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(anyMagnitude(0.05, 100), anyMagnitude(0.01, 1000)));
@@ -130,6 +131,7 @@ TEST(WaterCycleProperty, AnyEffectsInAnyWorld) {
     CoreScene scene(kind, hangingPatch(*rc::gen::inRange(3, 7)));
     RigidBody box(scene.bullet, std::make_unique<btBoxShape>(btVector3(2, btScalar(0.2), 2)), 0, btVector3(0, -1, 0));
     WaterCycle::giveWater(scene.bullet.info(), btScalar(anyBetween(-0.5, 0.5)));
+    WaterCycle::letTouch(scene.bullet, scene.body());
     wetcloth::WetClothWorld wet(scene.world());
     wet.setLog({});
     wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(anyMagnitude(0.3, 5), anyMagnitude(0.1, 10)));

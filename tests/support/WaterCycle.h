@@ -22,10 +22,17 @@ struct Choice {
 };
 
 inline const std::vector<std::string>& names() {
-  static const std::vector<std::string> all{"absorption", "immersion", "rain",       "splash", "contact_wetting",
-                                            "diffusion",  "seepage",   "dripping",   "drying", "wet_stiffness",
-                                            "swelling",   "wind",      "water_drag", "cling",  "hooke_springs"};
+  static const std::vector<std::string> all{"absorption",      "immersion",     "rain",         "splash",
+                                            "contact_wetting", "diffusion",     "seepage",      "dripping",
+                                            "drying",          "wet_stiffness", "swelling",     "wind",
+                                            "water_drag",      "cling",         "wet_friction", "hooke_springs"};
   return all;
+}
+
+/// The collision flags by which each world finds rigid bodies node by node.
+inline void letTouch(BulletWorld& bullet, btSoftBody& body) {
+  using Flags = btSoftBody::fCollision;
+  if (bullet.isDeformable()) body.m_cfg.collisions = Flags::SDF_RD | Flags::SDF_RDN;
 }
 
 /// Bullet's water surface at this height.
@@ -110,6 +117,8 @@ inline void addMechanics(wetcloth::WetCloth& cloth, const std::string& name, con
     cloth.add<wetcloth::WaterDrag>(parameters);
   } else if (name == "cling") {
     cloth.add<wetcloth::Cling>();
+  } else if (name == "wet_friction") {
+    cloth.add<wetcloth::WetFriction>();
   } else if (name == "hooke_springs") {
     cloth.add<wetcloth::HookeSprings>(springsOf(choice.number(1, 1000), choice.number(0.01, 10)));
   }

@@ -1,0 +1,49 @@
+// The water ledger over a long life: every effect at once, a hundred thousand steps. Only our own part of the step
+// runs, since the water is all that is asked for.
+
+#include "tests/support/WaterCycle.h"
+
+#include <random>
+
+namespace wetcloth_test::core {
+namespace {
+
+/// All effects with ordinary parameters: what comes in is about what goes out, and nothing settles.
+WaterCycle::Choice everything(std::mt19937& random) {
+  WaterCycle::Choice choice;
+  choice.names = WaterCycle::names();
+  choice.number = [](double low, double high) { return std::sqrt(low * high); };
+  choice.fraction = [&random] { return std::uniform_real_distribution<double>(0.1, 0.9)(random); };
+  choice.vector = [&random](double size) {
+    std::uniform_real_distribution<double> component(-size, size);
+    return btVector3(btScalar(component(random)), btScalar(component(random)), btScalar(component(random)));
+  };
+  return choice;
+}
+
+class WaterLedger : public InEveryWorld {};
+
+TEST_P(WaterLedger, ClosesAfterAHundredThousandStepsOfEverything) {
+  std::mt19937 random(5);
+  CoreScene scene(GetParam(), hangingPatch(4));
+  WaterCycle::giveWater(scene.bullet.info(), btScalar(0.4));
+  WaterCycle::letTouch(scene.bullet, scene.body());
+  wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
+  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(0.84, 9));
+  cloth.setSaturation(0.5);
+  WaterCycle::add(cloth, everything(random));
+  for (int step = 1; step <= 100000; ++step) {
+    wet.preTick(btScalar(1) / 240);
+    if (step % 10000 != 0) continue;
+    ASSERT_EQ(WaterCycle::faultOf(cloth), "") << "step " << step;
+  }
+  const wetcloth::Ledger ledger = cloth.ledger();
+  EXPECT_GT(ledger.absorbed, 10 * cloth.water().totalCapacity()) << "much water has come";
+  EXPECT_GT(ledger.dripped, 0);
+  EXPECT_GT(ledger.evaporated, 0);
+}
+
+WETCLOTH_IN_EVERY_WORLD(WaterLedger);
+
+}  // namespace
+}  // namespace wetcloth_test::core
