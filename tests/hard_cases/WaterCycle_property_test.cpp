@@ -123,6 +123,36 @@ TEST(WaterCycleProperty, AnyMeshAnyEffectsAnyStep) {
   });
 }
 
+// Cloth and all water that comes move alike: whatever arrives, spreads, runs off, drips or dries, momentum as it should
+// be means that no node's velocity changes.
+TEST(WaterCycleProperty, WaterThatMovesWithTheClothChangesNoVelocity) {
+  expectHolds(kIsDouble ? 6400 : 3200, 200, [] {
+    const bool isPatch = *rc::gen::inRange(0, 2) == 0;
+    CoreScene scene(WorldKind::softRigid,
+                    [&](btSoftBodyWorldInfo& info) { return isPatch ? anyPatch(info) : anySoup(info); });
+    wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
+    wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(anyMagnitude(0.05, 100), anyMagnitude(0.01, 1000)));
+    cloth.setHeld(anyWater(cloth));
+    const btVector3 velocity = WaterCycle::nonZero(anyVector(5));
+    for (int i = 0; i < scene.body().m_nodes.size(); ++i) scene.body().m_nodes[i].m_v = velocity;
+    wetcloth::Absorption::Parameters absorption;
+    absorption.exposure = anyBetween(0, 1);
+    absorption.waterVelocity = velocity;
+    cloth.add<wetcloth::Absorption>(absorption);
+    cloth.add<wetcloth::Rain>({velocity, anyMagnitude(1e-4, 100), double(velocity.length())});
+    cloth.add<wetcloth::Splash>({wetcloth::Splash::Sphere{btVector3(0, 0, 0), 1}, velocity, anyMagnitude(1e-4, 100)});
+    WaterCycle::Choice choice = anyEffects();
+    choice.names = {"diffusion", "seepage", "dripping", "drying"};
+    WaterCycle::add(cloth, choice);
+    for (int step = 0; step < 12; ++step) wet.preTick(btScalar(anyMagnitude(1e-6, 1e3)));
+    for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
+      // The rain's direction is rounded, and a node may take its mass many times over in a step: some ten roundings.
+      const double change = double((scene.body().m_nodes[i].m_v - velocity).length());
+      RC_ASSERT(change <= (kIsDouble ? 1e-13 : 1e-5) * double(velocity.length()));
+    }
+  });
+}
+
 // With Bullet, in each of its worlds, and steps that Bullet bears.
 TEST(WaterCycleProperty, AnyEffectsInAnyWorld) {
   expectHolds(kIsDouble ? 640 : 320, 60, [] {
