@@ -95,7 +95,7 @@ Json everything(const std::string& world) {
   Json& lower = cloth(scene);
   lower["effects"] = effects;
   lower["initial_saturation"] = 0.3;
-  lower["collisions"] = world == "deformable" ? Json{"SDF_RD", "VF_DD"} : Json{"SDF_RS", "VF_SS"};
+  lower["collisions"] = world == "deformable" ? Json{"SDF_RD", "SDF_RDN", "VF_DD"} : Json{"SDF_RS", "VF_SS"};
   lower["pins"] = {{"corners", {"bottom_left", "bottom_right"}}};
   lower["motion"] = {{"times_s", {0.2, 0.6}}, {"offsets_m", {{0, 0, 0}, {0, -0.2, 0.1}}}};
   Json upper = lower;
