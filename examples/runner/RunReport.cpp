@@ -4,6 +4,7 @@
 #include "StateHash.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace runner {
@@ -23,6 +24,12 @@ std::optional<wetcloth::AuditTotals> sumOf(const std::vector<wetcloth::Collision
     sum->seconds = std::max(sum->seconds, totals.seconds);
   }
   return sum;
+}
+
+/// As "%.1f" shows it: what rounding leaves below 0 must not be "-0.0".
+double grams(double kilograms) {
+  const double value = 1e3 * kilograms;
+  return std::abs(value) < 0.05 ? 0 : value;
 }
 
 }  // namespace
@@ -112,6 +119,13 @@ std::string RunReport::auditLine() const {
   return text;
 }
 
+std::string RunReport::runOffLine() const {
+  if (!(m_ledger.runOff > 0)) return "";
+  char text[100];
+  std::snprintf(text, sizeof text, "%-15s%.3g g struck the cloth and ran off\n", "run-off", 1e3 * m_ledger.runOff);
+  return text;
+}
+
 std::string RunReport::summary() const {
   char text[1600];
   std::snprintf(text, sizeof text,
@@ -131,11 +145,11 @@ std::string RunReport::summary() const {
                 m_effects.empty() ? "none" : joined(m_effects).c_str(), "time", m_times.wetMilliseconds,
                 m_times.plainMilliseconds,
                 m_times.plainMilliseconds > 0 ? m_times.wetMilliseconds / m_times.plainMilliseconds : 0., "water",
-                1e3 * m_ledger.held, 1e3 * m_ledger.initial, 1e3 * m_ledger.absorbed, 1e3 * m_ledger.dripped,
-                1e3 * m_ledger.evaporated, "saturation", m_saturation.min, m_saturation.max, m_saturation.mean,
+                grams(m_ledger.held), grams(m_ledger.initial), grams(m_ledger.absorbed), grams(m_ledger.dripped),
+                grams(m_ledger.evaporated), "saturation", m_saturation.min, m_saturation.max, m_saturation.mean,
                 "centre of mass", m_moment[0] / m_mass, m_moment[1] / m_mass, m_moment[2] / m_mass, "largest",
                 m_maxSpeed, m_maxStretch, "state hash", m_hash.c_str());
-  return text + auditLine();
+  return text + runOffLine() + auditLine();
 }
 
 }  // namespace runner

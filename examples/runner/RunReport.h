@@ -29,6 +29,7 @@ class RunReport {
  private:
   void measureBody(const btSoftBody& body);
   void measureCloth(const wetcloth::WetCloth& cloth);
+  std::string runOffLine() const;
   std::string auditLine() const;
 
   const Scene& m_scene;
