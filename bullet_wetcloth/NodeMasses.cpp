@@ -35,7 +35,6 @@ void NodeMasses::commit(Water& water) {
 }
 
 bool NodeMasses::writeNodes(Water& water) {
-  const bool waterLeft = water.leftSinceCommit();
   bool changed = false;
   for (std::size_t i = 0; i < m_inverseMass.size(); ++i) {
     btSoftBody::Node& node = m_body.m_nodes[static_cast<int>(i)];
@@ -45,28 +44,32 @@ bool NodeMasses::writeNodes(Water& water) {
       changed = true;
     }
     if (node.m_im == 0) continue;
-    const double inverseMass = 1 / water.totalMass(i);
-    const Water::Arrival& arrival = water.arrival(i);
-    const double arrived = arrival.mass + arrival.runOff;
-    if (arrived > 0) {
-      // Arrivals meet the mass that the node had before anything dripped or dried off it.
-      const bool isSum = !waterLeft && arrival.runOff == 0;
-      const double met = 1 / static_cast<double>(node.m_im) + arrival.shifted;
-      mixMomentum(node, arrival, isSum ? inverseMass : 1 / (std::max(met, 0.0) + arrived));
-    }
-    const btScalar rounded = static_cast<btScalar>(inverseMass);
+    mixMomentum(node, water, i);
+    const btScalar rounded = static_cast<btScalar>(1 / water.totalMass(i));
     changed = changed || rounded != node.m_im;
     node.m_im = m_inverseMass[i] = rounded;
   }
   return changed;
 }
 
+void NodeMasses::joinArrival(Water& water, std::size_t node) {
+  btSoftBody::Node& target = m_body.m_nodes[static_cast<int>(node)];
+  if (target.m_im > 0) mixMomentum(target, water, node);
+  water.joinArrival(node);
+}
+
 // What leaves takes the node's own velocity with it, so only arrivals change the velocity: v' - v = (p - dm v) /
-// (m + dm), with m the mass before.
-void NodeMasses::mixMomentum(btSoftBody::Node& node, const Water::Arrival& arrival, double inverseMass) const {
+// (m + dm), with m the mass that they meet, the node's before anything dripped or dried off it.
+void NodeMasses::mixMomentum(btSoftBody::Node& node, const Water& water, std::size_t index) const {
+  const Water::Arrival& arrival = water.arrival(index);
+  const double arrived = arrival.mass + arrival.runOff;
+  if (!(arrived > 0)) return;
+  const bool isSum = !water.leftSinceCommit() && arrival.runOff == 0;
+  const double met = 1 / static_cast<double>(node.m_im) + arrival.shifted;
+  const double inverseMass = 1 / (isSum ? water.totalMass(index) : std::max(met, 0.0) + arrived);
   const auto change = [&](int axis) {
     const double velocity = static_cast<double>(node.m_v[axis]);
-    return static_cast<btScalar>((arrival.momentum[axis] - (arrival.mass + arrival.runOff) * velocity) * inverseMass);
+    return static_cast<btScalar>((arrival.momentum[axis] - arrived * velocity) * inverseMass);
   };
   const btVector3 deltaVelocity(change(0), change(1), change(2));
   node.m_v += deltaVelocity;

@@ -5,6 +5,7 @@
 
 #include <BulletSoftBody/btSoftBody.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace wetcloth {
@@ -27,6 +28,10 @@ class NodeMasses {
   /// application changed since the last commit takes that mass as its new dry mass; a node it pinned stays pinned.
   void commit(Water& water);
 
+  /// The first part of a commit, for water that is to move on in the same step: mixes in the momentum of what arrived
+  /// at a node so far. Masses follow with commit().
+  void joinArrival(Water& water, std::size_t node);
+
   /// Recomputes what Bullet derived from node masses and link materials for each link, with the factors below.
   void refreshLinks();
 
@@ -48,7 +53,7 @@ class NodeMasses {
   bool writeNodes(Water& water);
   template <class InverseMassOf>
   void writeLinks(InverseMassOf inverseMassOf);
-  void mixMomentum(btSoftBody::Node& node, const Water::Arrival& arrival, double inverseMass) const;
+  void mixMomentum(btSoftBody::Node& node, const Water& water, std::size_t index) const;
   void refreshClusters();
   void refreshPose();
   void refreshDeformable();

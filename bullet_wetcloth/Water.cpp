@@ -98,6 +98,12 @@ double Water::take(std::size_t node, double mass, CompensatedSum& account) {
   return left;
 }
 
+void Water::joinArrival(std::size_t node) {
+  const double shifted = m_arrivals[node].shifted + m_arrivals[node].mass;
+  m_arrivals[node] = Arrival();
+  m_arrivals[node].shifted = shifted;
+}
+
 void Water::clearArrivals() {
   std::fill(m_arrivals.begin(), m_arrivals.end(), Arrival());
   for (const double part : m_newlyAbsorbed) m_absorbed.add(part);

@@ -41,8 +41,9 @@ class CompensatedSum {
 
 /// The water of one cloth, per node, and its ledger. All in kg and double, whatever Bullet's precision.
 ///
-/// Effects change it through absorb(), drip(), evaporate() and move(); what arrived since the last commit and with
-/// which momentum is remembered, so that the commit can update velocities and masses once per step.
+/// Effects change it through absorb(), runOff(), drip(), handOver(), evaporate(), move() and redistribute(); what
+/// arrived since the last commit and with which momentum is remembered, so that the commit can update velocities and
+/// masses once per step.
 class Water {
  public:
   /// What came to a node since the last commit.
@@ -50,7 +51,7 @@ class Water {
     double mass = 0;                 ///< that stays [kg]
     double momentum[3] = {0, 0, 0};  ///< of mass and runOff [kg m/s]
     double runOff = 0;               ///< that brought momentum, and left [kg]
-    double shifted = 0;              ///< went to other nodes (< 0), or came from them and is no part of mass [kg]
+    double shifted = 0;  ///< went to others (< 0), or came and is no part of mass: from nodes, or joined already [kg]
   };
 
   std::size_t size() const { return m_held.size(); }
@@ -94,6 +95,14 @@ class Water {
   void runOff(std::size_t node, double mass, double vx, double vy, double vz);
   /// Liquid that leaves at the node's own velocity; at most what is held. Returns what left.
   double drip(std::size_t node, double mass) { return take(node, mass, m_dripped); }
+  /// Liquid that another cloth takes in this step, with the velocity that the node has now; at most what is held.
+  /// Booked as dripped, but what arrives later in the step does not meet it any more. Call WetCloth::joinArrivals()
+  /// before. Returns what left.
+  double handOver(std::size_t node, double mass) {
+    const double left = drip(node, mass);
+    m_arrivals[node].shifted -= left;
+    return left;
+  }
   /// Vapour that leaves at the node's own velocity; at most what is held. Returns what left.
   double evaporate(std::size_t node, double mass) { return take(node, mass, m_evaporated); }
   /// Water that moves inside the cloth, with the velocity (vx, vy, vz) of the node it leaves [m/s]; what of it came to
@@ -101,7 +110,8 @@ class Water {
   void move(std::size_t from, std::size_t to, double mass, double vx, double vy, double vz);
   /// Water that moves between many nodes at once: node i ends with `held[i]` [kg], finite and >= 0. The sum must be
   /// what is held now, to rounding, which is booked under `initial`. The momentum that moved with it is the caller's
-  /// to see to, with WetCloth::push().
+  /// to see to, with WetCloth::push(), and WetCloth::joinArrivals() before: what arrived in this step and has not
+  /// joined its node stays with it, whatever moves on.
   void redistribute(const std::vector<double>& held);
 
   // --- for the commit ---------------------------------------------------------------------------------------
@@ -110,6 +120,8 @@ class Water {
   /// Whether water left a node, or moved between nodes, since the last commit.
   bool leftSinceCommit() const { return m_leftSinceCommit; }
   const Arrival& arrival(std::size_t node) const { return m_arrivals[node]; }
+  /// The arrival's momentum is in the node's velocity now: its mass is the node's like all other.
+  void joinArrival(std::size_t node);
   void clearArrivals();
 
   // --- for WetCloth -----------------------------------------------------------------------------------------

@@ -87,6 +87,11 @@ const RestMesh& WetCloth::restMesh() {
   return *m_restMesh;
 }
 
+void WetCloth::joinArrivals() {
+  if (!m_water.movedSinceCommit()) return;
+  for (std::size_t i = 0; i < m_water.size(); ++i) joinArrivals(i);
+}
+
 void WetCloth::log(const std::string& message) const { m_world.log(message); }
 
 // Calls `action` on the effect at `index` and moves on to the next. Effects of ours do not throw here, but a user's
@@ -123,6 +128,10 @@ void WetCloth::step(const Step& step) {
   if (m_water.movedSinceCommit()) m_masses.commit(m_water);
   if (!isAwake(step)) return;
   while (next < m_effects.size() && m_effects[next]->stage() < Stage::contact) guarded(next, run);
+}
+
+void WetCloth::commitExchange() {
+  if (m_water.movedSinceCommit() && m_body.m_nodes.size() == m_nodeCount) m_masses.commit(m_water);
 }
 
 void WetCloth::stepContacts(const Step& step) {

@@ -103,6 +103,12 @@ class WetCloth {
     if (m_deformable) node.m_vn += deltaVelocity;
   }
 
+  /// Lets what arrived at a node in this step join it at once: mixes in its momentum, which otherwise waits for the
+  /// commit. For an effect that makes water leave the node, and wants the velocity that this water has.
+  void joinArrivals(std::size_t node) { m_masses.joinArrival(m_water, node); }
+  /// The same at all nodes: their masses are then Water::totalMass().
+  void joinArrivals();
+
   bool isInDeformableWorld() const { return m_deformable; }
 
   /// A plain message through the world's log callback.
@@ -116,6 +122,8 @@ class WetCloth {
   void step(const Step& step);
   /// Between Bullet's collision detection and its solve: contact. Never throws.
   void stepContacts(const Step& step);
+  /// After the steps of all cloths: what another one gave or took since this one's own commit.
+  void commitExchange();
   bool hasContactEffects() const { return !m_effects.empty() && m_effects.back()->stage() == Stage::contact; }
   bool isAwake(const Step& step);
   void adaptToBody();

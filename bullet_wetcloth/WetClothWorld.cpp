@@ -100,6 +100,9 @@ void WetClothWorld::preTick(btScalar dt) {
   for (const auto& cloth : m_cloths) {
     if (noticePresence(*cloth)) cloth->step(stepOf(cloth->m_body, dt, m_time));
   }
+  for (const auto& cloth : m_cloths) {
+    if (cloth->m_wasPresent) cloth->commitExchange();
+  }
   m_time += static_cast<double>(dt);
 }
 

@@ -211,7 +211,8 @@ void ContactWetting::give(WetCloth& from, int fromNode, WetCloth& to, int toNode
   const std::size_t receiver = static_cast<std::size_t>(toNode);
   const double wanted = fitting(to.water(), receiver, mass);
   if (!(wanted > 0)) return;
-  const double moved = from.water().drip(static_cast<std::size_t>(fromNode), wanted);
+  from.joinArrivals(static_cast<std::size_t>(fromNode));
+  const double moved = from.water().handOver(static_cast<std::size_t>(fromNode), wanted);
   if (!(moved > 0)) return;
   const btVector3& velocity = from.body().m_nodes[fromNode].m_v;
   to.water().absorb(receiver, moved, velocity.x(), velocity.y(), velocity.z());

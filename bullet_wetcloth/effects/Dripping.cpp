@@ -70,6 +70,7 @@ void Dripping::apply(WetCloth& cloth, const Step& step) {
     hasExcess = true;
     if (!isLowPoint(cloth.body(), i, down)) continue;
     drips = true;
+    cloth.joinArrivals(i);
     shed(water, i, step.dt);
     report(cloth, step, i);
   }

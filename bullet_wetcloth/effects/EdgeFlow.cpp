@@ -59,18 +59,18 @@ double EdgeFlow::moved() const {
 
 void EdgeFlow::commit(WetCloth& cloth, const std::vector<double>& fluxes) {
   if (m_held == m_before) return;
+  cloth.joinArrivals();
   if (!moveAlike(cloth.body())) carryMomentum(cloth, fluxes);
   cloth.water().redistribute(m_held);
 }
 
-// What arrived earlier in this step is not yet part of the nodes' masses: it brings its momentum when the step commits.
 void EdgeFlow::carryMomentum(WetCloth& cloth, const std::vector<double>& fluxes) {
   btSoftBody& body = cloth.body();
   const Water& water = cloth.water();
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
     const btSoftBody::Node& node = body.m_nodes[static_cast<int>(i)];
     for (int c = 0; c < 3; ++c) m_nodes[i].velocity[index(c)] = static_cast<double>(node.m_v[c]);
-    m_nodes[i].mass = std::max(water.totalMass(i) - water.arrival(i).mass, 0.0);
+    m_nodes[i].mass = water.totalMass(i);
     m_nodes[i].isFixed = node.m_im == 0;
   }
   m_momentum.apply(m_edges, fluxes, m_nodes);

@@ -115,18 +115,28 @@ void WetStiffness::updateShares(double dt) {
   m_sharesDt = dt;
 }
 
-// One link after the other, each seeing what those before it left, so that no step is too large.
+// One link after the other, each seeing what those before it left, so that no step is too large. Water that moved in
+// this step counts: the commit that follows writes it into the masses.
 void WetStiffness::damp(WetCloth& cloth) {
+  cloth.joinArrivals();
   btSoftBody& body = cloth.body();
+  const Water& water = cloth.water();
+  const bool massesAreStale = water.movedSinceCommit();
+  const auto inverseMassOf = [&](const btSoftBody::Node& node) {
+    if (!massesAreStale || node.m_im == 0) return node.m_im;
+    return static_cast<btScalar>(1 / water.totalMass(static_cast<std::size_t>(&node - &body.m_nodes[0])));
+  };
   for (std::size_t k = 0; k < m_shares.size(); ++k) {
     if (m_shares[k] == 0) continue;
     const btSoftBody::Link& link = body.m_links[static_cast<int>(k)];
     btSoftBody::Node& a = *link.m_n[0];
     btSoftBody::Node& b = *link.m_n[1];
-    const double inverseMasses = static_cast<double>(a.m_im) + static_cast<double>(b.m_im);
+    const btScalar inverseMassA = inverseMassOf(a);
+    const btScalar inverseMassB = inverseMassOf(b);
+    const double inverseMasses = static_cast<double>(inverseMassA) + static_cast<double>(inverseMassB);
     const btVector3 impulse = dampingImpulse(b.m_x - a.m_x, b.m_v - a.m_v, inverseMasses, m_shares[k]);
-    cloth.push(a, impulse * -a.m_im);
-    cloth.push(b, impulse * b.m_im);
+    cloth.push(a, impulse * -inverseMassA);
+    cloth.push(b, impulse * inverseMassB);
   }
   m_linksVisited += static_cast<long long>(m_shares.size());
 }
