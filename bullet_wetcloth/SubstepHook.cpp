@@ -109,6 +109,7 @@ void SubstepHook::detach(WetClothWorld& wetWorld) {
   entry.wetWorld = nullptr;
   putBack(world, entry, Slot::preTick);
   putBack(world, entry, Slot::tick);
+  if (entry.preTick.isRunning || entry.tick.isRunning) return;  // by an application's callback: the entry is in use
   if (mayStillBeCalled(world, entry, Slot::preTick) || mayStillBeCalled(world, entry, Slot::tick)) return;
   registry().erase(found);
 }

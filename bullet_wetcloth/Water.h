@@ -67,8 +67,8 @@ class Water {
 
   Ledger ledger() const;
 
-  /// Grows with every change of the water, by an effect or by hand: an effect that found nothing to do may idle
-  /// until it changes.
+  /// Grows with every change of the water or of a capacity, by an effect or by hand: an effect that found nothing to do
+  /// may idle until it changes.
   unsigned long long revision() const { return m_revision; }
   /// All water that was ever moved, in, out, within or by hand [kg]: never falls.
   double moved() const;
@@ -134,6 +134,7 @@ class Water {
   void setDryMass(std::size_t node, double mass) {
     m_totalDryMass += mass - m_dryMass[node];
     m_dryMass[node] = mass;
+    ++m_revision;
   }
   /// The body's nodes changed: new arrays whose total water must equal the old one's to rounding.
   void replaceNodes(std::vector<double> dryMass, std::vector<double> held);

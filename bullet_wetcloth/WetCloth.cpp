@@ -111,12 +111,16 @@ void WetCloth::guarded(std::size_t& index, Action action) {
   log(std::string("wetcloth: effect ") + m_effects[index]->name() + " removed: " + reason);
   const std::unique_ptr<Effect> failed = std::move(m_effects[index]);
   m_effects.erase(m_effects.begin() + static_cast<std::ptrdiff_t>(index));
-  try {
-    failed->detach(*this);
-  } catch (...) {
-    log(std::string("wetcloth: effect ") + failed->name() + " could not give back what it changed");
-  }
+  detachGuarded(*failed);
   m_world.shareTick();
+}
+
+void WetCloth::detachGuarded(Effect& effect) {
+  try {
+    effect.detach(*this);
+  } catch (...) {
+    log(std::string("wetcloth: effect ") + effect.name() + " could not give back what it changed");
+  }
 }
 
 void WetCloth::step(const Step& step) {
@@ -164,7 +168,7 @@ double WetCloth::totalMass() const {
 }
 
 void WetCloth::releaseEffects() {
-  for (const auto& effect : m_effects) effect->detach(*this);
+  for (const auto& effect : m_effects) detachGuarded(*effect);
   m_effects.clear();
 }
 

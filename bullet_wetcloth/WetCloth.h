@@ -128,6 +128,7 @@ class WetCloth {
   bool isAwake(const Step& step);
   void adaptToBody();
   void releaseEffects();
+  void detachGuarded(Effect& effect);
   template <class Action>
   void guarded(std::size_t& index, Action action);
   bool bodyChanged() const;

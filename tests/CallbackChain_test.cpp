@@ -2,6 +2,7 @@
 
 #include "tests/support/CoreScene.h"
 
+#include <memory>
 #include <stdexcept>
 
 namespace wetcloth_test::core {
@@ -170,6 +171,21 @@ TEST_P(CallbackChain, AnApplicationsExceptionDoesNotSilenceUs) {
   EXPECT_THROW(scene.bullet.step(1), std::runtime_error);
   EXPECT_THROW(scene.bullet.step(1), std::runtime_error) << "the application's callback is called in every step";
   EXPECT_EQ(calls, 0);
+}
+
+// What we know of the slot must outlive the call that is under way.
+TEST_P(CallbackChain, TheApplicationMayDestroyUsFromItsCallback) {
+  static std::unique_ptr<wetcloth::WetClothWorld> wet;
+  CoreScene scene(GetParam());
+  scene.world().setInternalTickCallback([](btDynamicsWorld*, btScalar) { wet.reset(); }, nullptr, true);
+  wet = std::make_unique<wetcloth::WetClothWorld>(scene.world());
+  int calls = 0;
+  addCall(wet->add(scene.body()), [&calls](wetcloth::WetCloth&, const wetcloth::Step&) { ++calls; });
+  scene.bullet.step(2);
+  EXPECT_FALSE(wet);
+  EXPECT_EQ(calls, 0);
+  const wetcloth::WetClothWorld another(scene.world());
+  EXPECT_TRUE(another.isHooked());
 }
 
 // A world without soft bodies cannot have cloths.

@@ -197,6 +197,27 @@ TEST_P(OwnEffect, ThatFailsIsDetachedBeforeItIsRemoved) {
   EXPECT_TRUE(gaveBack);
 }
 
+// A destructor must not let it through.
+class DoesNotGiveBack : public wetcloth::Effect {
+ public:
+  const char* name() const override { return "DoesNotGiveBack"; }
+  Stage stage() const override { return Stage::material; }
+  void detach(wetcloth::WetCloth&) override { throw std::runtime_error("mine"); }
+  void apply(wetcloth::WetCloth&, const wetcloth::Step&) override {}
+};
+
+TEST_P(OwnEffect, ThatThrowsAtTheEndIsReported) {
+  CoreScene scene(GetParam());
+  std::vector<std::string> messages;
+  {
+    wetcloth::WetClothWorld wet(scene.world());
+    wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
+    wet.add(scene.body()).add(std::make_unique<DoesNotGiveBack>());
+  }
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_NE(messages[0].find("DoesNotGiveBack"), std::string::npos) << messages[0];
+}
+
 // A push is a velocity that Bullet can use: never NaN, never on a pinned node.
 TEST_P(OwnEffect, CannotPushNonsense) {
   CoreScene scene(GetParam(), hangingPatch(4));

@@ -65,7 +65,7 @@ btVector3 targetVelocity(const btCollisionObject& object, const btVector3& place
 BondImpulse bondImpulse(const btVector3& needed, const btVector3& normal, double pull, double shear) {
   BondImpulse bond;
   const btScalar away = needed.dot(normal);
-  bond.breaks = -static_cast<double>(away) > pull;
+  bond.breaks = !std::isfinite(away) || -static_cast<double>(away) > pull;
   if (bond.breaks) return bond;
   btVector3 along = needed - normal * away;
   const double length = static_cast<double>(along.length());

@@ -16,7 +16,7 @@ struct RigidContact;
 /// What a bond gives of the impulse that would keep its node in place.
 struct BondImpulse {
   btVector3 impulse = btVector3(0, 0, 0);  ///< on the node [N s]
-  bool breaks = false;                     ///< pulled harder than it holds: no impulse at all
+  bool breaks = false;                     ///< pulled harder than it holds, or not finite: no impulse at all
   bool slides = false;                     ///< held back along the surface by less than it takes
 };
 

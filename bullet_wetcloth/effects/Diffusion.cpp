@@ -1,5 +1,6 @@
 #include "bullet_wetcloth/effects/Diffusion.h"
 
+#include "bullet_wetcloth/Direction.h"
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/effects/DiffusionSolver.h"
@@ -51,7 +52,7 @@ Diffusion::Diffusion(Parameters parameters)
     rejectValue("Diffusion.exponent", m_parameters.exponent, "in [0, 100]");
   }
   requireFinite("Diffusion.warp", m_parameters.warp);
-  if (!(m_parameters.warp.length2() > 0)) reject("Diffusion.warp", "must not be of length 0");
+  if (directionOf(m_parameters.warp).isZero()) reject("Diffusion.warp", "must not be of length 0");
   if (!(m_parameters.tolerance > 0 && m_parameters.tolerance < 1)) {
     rejectValue("Diffusion.tolerance", m_parameters.tolerance, "in (0, 1)");
   }
@@ -81,7 +82,7 @@ void Diffusion::rememberWarp(WetCloth& cloth) {
   const btSoftBody& body = cloth.body();
   const std::size_t known = m_warpCoordinate.size();
   m_warpCoordinate.resize(static_cast<std::size_t>(body.m_nodes.size()), 0);
-  const btVector3 warp = m_parameters.warp.normalized();
+  const btVector3 warp = directionOf(m_parameters.warp);
   for (std::size_t i = known; i < m_warpCoordinate.size(); ++i) {
     if (known == 0) {
       m_warpCoordinate[i] = static_cast<double>(warp.dot(body.m_nodes[static_cast<int>(i)].m_x));

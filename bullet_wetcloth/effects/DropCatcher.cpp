@@ -35,17 +35,6 @@ double projectedArea(const btVector3& a, const btVector3& b, const btVector3& c,
 
 }  // namespace
 
-btVector3 directionOf(const btVector3& vector) {
-  const double largest = static_cast<double>(vector.absolute()[vector.absolute().maxAxis()]);
-  if (!(largest > 0 && std::isfinite(largest))) return btVector3(0, 0, 0);
-  Vector scaled = doubles(vector);  // so that no square overflows, nor vanishes
-  for (double& component : scaled) component /= largest;
-  const double length = std::sqrt(scaled[0] * scaled[0] + scaled[1] * scaled[1] + scaled[2] * scaled[2]);
-  if (!std::isfinite(length)) return btVector3(0, 0, 0);
-  return btVector3(static_cast<btScalar>(scaled[0] / length), static_cast<btScalar>(scaled[1] / length),
-                   static_cast<btScalar>(scaled[2] / length));
-}
-
 double caughtFlux(const btVector3& a, const btVector3& b, const btVector3& c, const btVector3& direction, double flux) {
   const double caught = flux * projectedArea(a, b, c, directionOf(direction));
   return std::isfinite(caught) ? caught : 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bullet_wetcloth/Direction.h"
 #include "bullet_wetcloth/Water.h"
 #include "bullet_wetcloth/effects/NodeUptake.h"
 
@@ -11,9 +12,6 @@
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
-
-/// A vector's direction, length 1, whatever its length; zero for a vector of length 0 or one that is not finite.
-btVector3 directionOf(const btVector3& vector);
 
 /// Water that a triangle catches of a stream [kg/s]: flux x projected area, both sides alike, flux |n . d| A.
 /// Zero for a triangle without area, a direction of length 0, and values that are not finite.

@@ -31,7 +31,8 @@ void requireClimate(double temperature, double relativeHumidity) {
 }
 
 double stillAirRate(const Drying::Parameters& parameters) {
-  return parameters.sides * parameters.selfCooling * evaporationRate(parameters.temperature, parameters.relativeHumidity, 0);
+  return parameters.sides * parameters.selfCooling *
+         evaporationRate(parameters.temperature, parameters.relativeHumidity, 0);
 }
 
 }  // namespace
@@ -131,14 +132,20 @@ double Drying::rateOf(const WetCloth& cloth, const Step& step, std::size_t node)
   return std::isfinite(rate) ? rate : 0;
 }
 
+// For good.
+bool Drying::isCovered(std::size_t node) const {
+  const btVector3 anywhere(0, 0, 0);
+  return !m_parameters.exposure.isFunction() && m_parameters.exposure.at(node, anywhere, anywhere) == 0;
+}
+
 // Returns whether nothing more will dry off the node.
 bool Drying::dry(WetCloth& cloth, const Step& step, std::size_t node) {
   Water& water = cloth.water();
   const double held = water.held(node);
   if (!(held > 0)) return true;
   const double rate = rateOf(cloth, step, node);
-  // A function may expose the node later; anything else stays as it is.
-  if (!(rate > 0)) return m_areas[node] == 0 || !m_parameters.exposure.isFunction();
+  // A function may expose the node later, and a speed that is not finite pass; anything else stays as it is.
+  if (!(rate > 0)) return m_areas[node] == 0 || isCovered(node);
 
   const double exact = held - m_carry[node];
   const double leaving = dryingStep(exact, m_parameters.criticalSaturation * water.capacity(node), rate, step.dt);

@@ -70,6 +70,7 @@ class Drying : public Effect {
 
  private:
   double rateOf(const WetCloth& cloth, const Step& step, std::size_t node) const;
+  bool isCovered(std::size_t node) const;
   bool dry(WetCloth& cloth, const Step& step, std::size_t node);
 
   Parameters m_parameters;

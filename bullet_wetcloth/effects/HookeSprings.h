@@ -50,7 +50,8 @@ class HookeSprings : public Effect {
 
   const char* name() const override { return "HookeSprings"; }
   Stage stage() const override { return Stage::elasticity; }
-  /// Throws std::invalid_argument when the body has no links, or `perLink` has not one value per link.
+  /// Throws std::invalid_argument when the body has no links, the cloth has HookeSprings already, or `perLink` has not
+  /// one value per link.
   void attach(WetCloth& cloth) override;
   void detach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;

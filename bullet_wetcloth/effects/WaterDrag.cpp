@@ -71,7 +71,8 @@ void WaterDrag::attach(WetCloth& cloth) {
   if (cloth.body().m_faces.size() == 0) {
     rejectValue("WaterDrag: body.m_faces.size()", 0, "at least 1: water resists triangles, and a rope has none");
   }
-  requireSurface("WaterDrag.surface", m_parameters.surface, cloth.body());
+  const bool firstTime = m_mesh == nullptr;  // later, the application may have let the water out
+  if (firstTime) requireSurface("WaterDrag.surface", m_parameters.surface, cloth.body());
   m_mesh = &cloth.restMesh();
   m_nodes.resize(cloth.water().size());
 }

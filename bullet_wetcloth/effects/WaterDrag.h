@@ -56,7 +56,8 @@ class WaterDrag : public Effect {
 
   const char* name() const override { return "WaterDrag"; }
   Stage stage() const override { return Stage::forces; }
-  /// Throws std::invalid_argument when the body has no faces, or there is no water surface.
+  /// Throws std::invalid_argument when the body has no faces, or when the effect is added and there is no water
+  /// surface.
   void attach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
   /// When, since the last apply(), the water has reached the body or left it; and for a body in it when the level has

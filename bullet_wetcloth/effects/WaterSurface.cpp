@@ -1,5 +1,6 @@
 #include "bullet_wetcloth/effects/WaterSurface.h"
 
+#include "bullet_wetcloth/Direction.h"
 #include "bullet_wetcloth/Require.h"
 
 #include <string>
@@ -16,7 +17,7 @@ constexpr double kWaterDensity = 1000;
 void requireValid(const char* prefix, const WaterSurface& surface) {
   const std::string name = prefix;
   requireFinite(name + ".normal", surface.normal);
-  if (!(surface.normal.length2() > 0)) reject(name + ".normal", "must not be of length 0");
+  if (directionOf(surface.normal).isZero()) reject(name + ".normal", "must not be of length 0");
   requireFinite(name + ".offset", surface.offset);
   requirePositive(name + ".density", surface.density);
   requireFinite(name + ".velocity", surface.velocity);
@@ -24,16 +25,15 @@ void requireValid(const char* prefix, const WaterSurface& surface) {
 
 WaterSurface normalized(const WaterSurface& surface) {
   WaterSurface unit = surface;
-  const btScalar length = surface.normal.length();
-  unit.normal = surface.normal / length;
-  unit.offset = surface.offset / static_cast<double>(length);
+  unit.normal = directionOf(surface.normal);
+  unit.offset = surface.offset / lengthOf(surface.normal);
   return unit;
 }
 
 std::optional<WaterSurface> surfaceFor(const std::optional<WaterSurface>& own, const btSoftBody& body) {
   if (own) return normalized(*own);
   const btSoftBodyWorldInfo& info = *body.m_worldInfo;
-  if (!(info.water_normal.length2() > 0)) return std::nullopt;
+  if (directionOf(info.water_normal).isZero()) return std::nullopt;
   WaterSurface surface;
   surface.normal = info.water_normal;
   surface.offset = static_cast<double>(info.water_offset);

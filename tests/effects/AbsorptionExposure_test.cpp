@@ -199,6 +199,15 @@ TEST(AbsorptionIdles, UntilTheExposureChanges) {
   EXPECT_NEAR(bath.scene.cloth().saturation(0), soaked(2, 1), 1e-14);
 }
 
+// A mass that the application changed counts from the next commit on, here in the step in which the cloth fills.
+TEST(AbsorptionIdles, UntilANodeCanHoldMore) {
+  Bath bath(1.0);
+  bath.scene.preTick(1);
+  bath.scene.node(0).m_im /= 4;
+  for (int i = 0; i < 3; ++i) bath.scene.preTick(1e3);
+  EXPECT_EQ(bath.scene.cloth().saturation(0), 1);
+}
+
 TEST(AbsorptionIdles, UntilWaterIsSetByHand) {
   Bath bath(1.0);
   bath.scene.cloth().setSaturation(1);

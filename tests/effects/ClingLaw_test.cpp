@@ -2,6 +2,9 @@
 
 #include "tests/support/ContactScene.h"
 
+#include <cmath>
+#include <limits>
+
 namespace wetcloth_test {
 namespace {
 
@@ -33,6 +36,16 @@ TEST(Bond, SlidesBeyondItsShearStrength) {
 
 TEST(Bond, NeverPushesAway) { EXPECT_EQ(bondImpulse({0, 7, 0}, {0, 1, 0}, 1, 1).impulse, btVector3(0, 0, 0)); }
 
+TEST(Bond, LetsGoOfWhatIsNotFinite) {
+  const btScalar nan = std::numeric_limits<btScalar>::quiet_NaN();
+  const btScalar infinity = std::numeric_limits<btScalar>::infinity();
+  for (const btVector3& bad : {btVector3(nan, 0, 0), btVector3(infinity, 0, 0), btVector3(0, infinity, 0)}) {
+    const BondImpulse bond = bondImpulse(bad, {0, 1, 0}, 1, 1);
+    EXPECT_TRUE(bond.breaks);
+    EXPECT_EQ(bond.impulse, btVector3(0, 0, 0));
+  }
+}
+
 // --- bad input ------------------------------------------------------------------------------------------------------
 
 TEST(ClingParameters, AreChecked) {
@@ -57,6 +70,21 @@ TEST(ClingParameters, AreChecked) {
   EXPECT_DOUBLE_EQ(cling.share(0.3), 0.5);
   EXPECT_DOUBLE_EQ(cling.share(0.5), 1);
   EXPECT_DOUBLE_EQ(cling.share(1), 0.5);
+}
+
+TEST(ClingOnABody, NodesThatAreNotFiniteDoNotSpoilTheRigidBody) {
+  ClothScene scene(WorldKind::softRigid, kEarthGravity, Lying().builder(WorldKind::softRigid));
+  core::RigidBody slab(scene.bullet(), box(5, 0.5, 5), 1000, {0, btScalar(-0.5), 0});
+  slab.body().setGravity({0, 0, 0});
+  scene.cloth().setSaturation(0.5);
+  Cling& cling = scene.cloth().add<Cling>();
+  scene.step(5);
+  ASSERT_EQ(cling.bonds(), 16);
+  for (const int i : {3, 7}) scene.node(i).m_x.setX(std::numeric_limits<btScalar>::quiet_NaN());
+  scene.preTick(kSubstep);
+  EXPECT_EQ(cling.bonds(), 14);
+  EXPECT_TRUE(std::isfinite(slab.body().getLinearVelocity().length()));
+  EXPECT_TRUE(std::isfinite(slab.body().getAngularVelocity().length()));
 }
 
 TEST(ClingOnABody, SaysWhyItCannotWork) {

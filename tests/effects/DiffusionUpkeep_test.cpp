@@ -168,6 +168,22 @@ TEST_P(DiffusionInWorld, GoesOnAfterACut) {
   }
 }
 
+// The squares of the first and the last length are no float any more.
+TEST(DiffusionWarp, IsOfAnyLength) {
+  for (const double length : {1e-30, 1.0, 1e25}) {
+    TransportScene scene(grid(6, 6, 0.1, 0.1));
+    Diffusion::Parameters parameters;
+    parameters.warpDiffusivity = 1e-4;
+    parameters.weftDiffusivity = 1e-9;
+    parameters.exponent = 0;
+    parameters.warp = btVector3(btScalar(length), 0, 0);
+    scene.cloth().add<Diffusion>(parameters);
+    scene.wet([](double x, double y) { return x == 0 && y == 0 ? 1 : 0; });
+    scene.run(10, 1);
+    EXPECT_GT(scene.s(1), 100 * scene.s(6)) << length;
+  }
+}
+
 WETCLOTH_IN_EVERY_WORLD(DiffusionInWorld);
 
 }  // namespace

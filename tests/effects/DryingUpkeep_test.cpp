@@ -46,6 +46,18 @@ TEST(DryingIdles, WhenTheClothIsDry) {
   EXPECT_GT(line.effect.nodesVisited(), visited);
 }
 
+TEST(DryingIdles, NotForGoodAfterAStormWhoseSpeedIsNotFinite) {
+  Drying::Parameters parameters;
+  parameters.air = [](const btVector3&, double time) {
+    return btVector3(time < 1 ? std::numeric_limits<btScalar>::max() : btScalar(1), 0, 0);
+  };
+  Line line(parameters);
+  line.scene.preTick(1);
+  EXPECT_EQ(line.scene.cloth().ledger().evaporated, 0);
+  line.scene.preTick(1);
+  EXPECT_GT(line.scene.cloth().ledger().evaporated, 0);
+}
+
 TEST(DryingIdles, InAirThatIsSaturatedAndWithoutExposure) {
   Drying::Parameters humid;
   humid.relativeHumidity = 1;

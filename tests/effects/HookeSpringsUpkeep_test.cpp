@@ -158,6 +158,16 @@ TEST(HookeSpringsInput, PerLinkNeedsOneValuePerLink) {
   EXPECT_TRUE(scene.cloth().effects().empty());
 }
 
+// A second one would take the first one's powerless links for the body's own, and give those back last.
+TEST(HookeSpringsInput, ASecondOnOneClothIsRefused) {
+  ClothScene scene(WorldKind::softRigid, kEarthGravity, levelPatch(4, 1));
+  const btSoftBody::Material* const own = scene.body().m_links[0].m_material;
+  HookeSprings& effect = scene.cloth().add<HookeSprings>();
+  EXPECT_NE(rejection([&] { scene.cloth().add<HookeSprings>(); }).find("already"), std::string::npos);
+  scene.cloth().remove(effect);
+  EXPECT_EQ(scene.body().m_links[0].m_material, own);
+}
+
 TEST(HookeSpringsInput, BodyWithoutLinksIsRefused) {
   ClothScene scene(WorldKind::softRigid, kEarthGravity,
                    triangles({btVector3(0, 0, 0), btVector3(1, 0, 0), btVector3(0, 0, 1)}, {1, 1, 1}, {{0, 1, 2}}));

@@ -182,6 +182,18 @@ TEST(ImmersionSurface, MayBeSetAndGivenUp) {
   EXPECT_NEAR(bath.saturation(0), soaked(1), 1e-14);
 }
 
+// The squares of these lengths are no float any more.
+TEST(ImmersionInWater, WhoseNormalIsOfAnyLength) {
+  for (const double length : {1e-30, 1e25}) {
+    WaterSurface surface = levelAt(1);
+    surface.normal = btVector3(0, btScalar(length), 0);
+    surface.offset *= length;
+    Bath bath({surface});
+    bath.scene.preTick(1);
+    EXPECT_NEAR(bath.saturation(0), soaked(1), 1e-14) << length;
+  }
+}
+
 TEST(ImmersionBadInput, WithoutWaterIsRefusedAndTheClothIsAsItWas) {
   ClothScene scene(WorldKind::softRigid, btVector3(0, 0, 0), levelPatch(5, 1), Fabric::cotton(), Hook::manual);
   const std::string message = rejection([&] { scene.cloth().add<Immersion>(); });

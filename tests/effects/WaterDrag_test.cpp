@@ -210,6 +210,23 @@ TEST(WaterDragOfBullet, IsUsedWhenNoSurfaceIsGivenAndFollowedWhenItChanges) {
   EXPECT_EQ(effect.totalForce(), kNoGravity) << "drained";
 }
 
+TEST(WaterDragOfBullet, ACutAfterItWasDrainedDoesNotEndTheEffect) {
+  ClothScene scene(WorldKind::softRigid, kEarthGravity, levelPatch(5, 1), Fabric::cotton(), Hook::manual);
+  scene.wet().setLog({});
+  btSoftBodyWorldInfo& info = scene.bullet().info();
+  info.water_normal = btVector3(0, 1, 0);
+  info.water_offset = -1;
+  WaterDrag& effect = scene.cloth().add<WaterDrag>();
+  info.water_normal = kNoGravity;
+  const btSoftBody::Face& face = scene.body().m_faces[0];
+  ASSERT_TRUE(scene.body().cutLink(face.m_n[0], face.m_n[1], btScalar(0.5)));
+  scene.preTick(kSubstep);
+  ASSERT_EQ(scene.cloth().effects().size(), 1u);
+  info.water_normal = btVector3(0, 1, 0);
+  scene.preTick(kSubstep);
+  EXPECT_GT(effect.totalForce().y(), 0) << "flooded again";
+}
+
 TEST(WaterDragOfBullet, WithoutAnySurfaceIsRefused) {
   ClothScene scene(WorldKind::softRigid, kEarthGravity, levelPatch(5, 1), Fabric::cotton(), Hook::manual);
   const std::string message = rejection([&] { scene.cloth().add<WaterDrag>(); });
