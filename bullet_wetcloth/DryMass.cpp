@@ -65,8 +65,9 @@ bool hasPinnedNodes(const btSoftBody& body) {
   return false;
 }
 
-// Water per wet mass around each new node: the mean over the old nodes that it is linked to.
-std::vector<double> neighbourWaterShare(const btSoftBody& body, const Water& water, std::size_t newCount) {
+// Water per wet mass around each new node: the mean over the old nodes that it is linked to, or `elsewhere`.
+std::vector<double> neighbourWaterShare(const btSoftBody& body, const Water& water, std::size_t newCount,
+                                        double elsewhere) {
   const std::size_t oldCount = water.size();
   std::vector<double> share(newCount, 0);
   std::vector<int> count(newCount, 0);
@@ -80,8 +81,27 @@ std::vector<double> neighbourWaterShare(const btSoftBody& body, const Water& wat
       ++count[added - oldCount];
     }
   }
-  for (std::size_t i = 0; i < newCount; ++i) share[i] = count[i] > 0 ? share[i] / count[i] : 0;
+  for (std::size_t i = 0; i < newCount; ++i) share[i] = count[i] > 0 ? share[i] / count[i] : elsewhere;
   return share;
+}
+
+// Shares `amount` out in proportion to the weights, as far as there is room, and the rest by the room that is left;
+// what is more than all the room, in proportion to it.
+std::vector<double> shareOut(double amount, const std::vector<double>& weights, const std::vector<double>& rooms) {
+  std::vector<double> parts(weights.size(), 0);
+  const double total = sum(weights);
+  if (total > 0) {
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = std::min(amount * weights[k] / total, rooms[k]);
+  }
+  const double rest = amount - sum(parts);
+  const double room = sum(rooms) - sum(parts);
+  if (!(rest > 0)) return parts;
+  if (rest <= room) {
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += rest * ((rooms[k] - parts[k]) / room);
+  } else {
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = amount * (rooms[k] / sum(rooms));
+  }
+  return parts;
 }
 
 }  // namespace
@@ -122,16 +142,22 @@ void redistributeWater(const btSoftBody& body, double arealDensity, Water& water
     dry[i] = water.dryMass(i) * kept;
   }
 
-  // In proportion to mass and to how wet the surroundings are; if they are dry by name, by mass alone.
-  std::vector<double> weights = neighbourWaterShare(body, water, newCount);
-  for (std::size_t k = 0; k < newCount; ++k) weights[k] *= dry[oldCount + k];
-  if (!(sum(weights) > 0)) std::copy(dry.begin() + static_cast<std::ptrdiff_t>(oldCount), dry.end(), weights.begin());
-  const double total = sum(weights);
-  for (std::size_t k = 0; k < newCount && freed > 0; ++k) {
-    const std::size_t i = oldCount + k;
-    held[i] = freed * weights[k] / total;
-    // Bullet gave the node its wet mass; a node that is nothing but water could hold none.
-    dry[i] = std::max(dry[i] - held[i], 0.1 * dry[i]);
+  if (freed > 0) {
+    // In proportion to mass and to how wet the surroundings are. Bullet gave each new node its wet mass: of that it may
+    // hold as much as leaves it saturated.
+    const std::vector<double> wet(dry.begin() + static_cast<std::ptrdiff_t>(oldCount), dry.end());
+    std::vector<double> weights = neighbourWaterShare(body, water, newCount, freed / sum(wet));
+    std::vector<double> rooms = wet;
+    for (std::size_t k = 0; k < newCount; ++k) {
+      weights[k] *= wet[k];
+      rooms[k] *= water.capacityRatio() / (1 + water.capacityRatio());
+    }
+    const std::vector<double> shares = shareOut(freed, weights, rooms);
+    for (std::size_t k = 0; k < newCount; ++k) {
+      held[oldCount + k] = shares[k];
+      // More than its room only where the user had overfilled the cloth.
+      dry[oldCount + k] = wet[k] - std::min(shares[k], rooms[k]);
+    }
   }
   water.replaceNodes(std::move(dry), std::move(held));
 }

@@ -19,8 +19,8 @@ std::vector<double> nodeAreas(const btSoftBody& body);
 std::vector<double> dryMasses(const btSoftBody& body, double arealDensity);
 
 /// After the body was cut or refined: gives the new nodes (at the end of m_nodes) the water that Bullet's sharing of
-/// masses took from the old ones. The total is kept. An old node whose mass Bullet left alone keeps its water; one
-/// whose mass Bullet reduced keeps its saturation.
+/// masses took from the old ones. The total is kept, and no node is over-full that was not so before. An old node whose
+/// mass Bullet left alone keeps its water; one whose mass Bullet reduced keeps its saturation.
 void redistributeWater(const btSoftBody& body, double arealDensity, Water& water);
 
 }  // namespace WETCLOTH_PRECISION

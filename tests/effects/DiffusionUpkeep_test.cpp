@@ -150,7 +150,7 @@ TEST_P(DiffusionInWorld, GoesOnAfterACut) {
   scene.body().refine(&plane, btScalar(0.001), true);
   ASSERT_GT(scene.body().m_nodes.size(), 36);
   scene.step(1);
-  // A node that the cut made may hold more than it can.
+  // Bullet rounds the masses that it shares out: a node that the cut made may be over-full by as much.
   const auto highest = [&] {
     double value = 1;
     for (int i = 0; i < scene.cloth().nodeCount(); ++i) value = std::max(value, scene.cloth().saturation(i));
