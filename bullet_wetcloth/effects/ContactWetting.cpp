@@ -20,6 +20,8 @@ namespace {
 // An exponential never arrives: a node that is nearer to full than this takes the rest, and two that differ less count
 // as alike.
 constexpr double kNegligible = 1e-13;
+// How far an object may move before a cloth that sleeps on it touches it no more [m].
+constexpr btScalar kStirred = btScalar(1e-3);
 
 void requireFilm(const std::string& field, double water) {
   if (!(water >= 0)) rejectValue(field, water, ">= 0 (infinite is allowed)");
@@ -37,6 +39,17 @@ btVector3 velocityOf(const btCollisionObject& object, const btVector3& place) {
   const btRigidBody* rigid = btRigidBody::upcast(&object);
   if (!rigid) return {0, 0, 0};
   return rigid->getVelocityInLocalPoint(place - rigid->getCenterOfMassPosition());
+}
+
+// The contacts of a body that sleeps are those of when it fell asleep, and the object may have been taken away since.
+bool isGone(const WetCloth& cloth, const RigidContact& contact) {
+  if (!contact.deformable || cloth.body().isActive() || !btRigidBody::upcast(contact.object)) return false;
+  btVector3 place(0, 0, 0);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(contact.point.count); ++k) {
+    place += cloth.body().m_nodes[contact.point.nodes[k]].m_x * static_cast<btScalar>(contact.point.weights[k]);
+  }
+  const btVector3 arm = place - contact.object->getWorldTransform().getOrigin();
+  return (arm - contact.deformable->m_c1).length2() > kStirred * kStirred;
 }
 
 // Its arrays are those of the body as it was when it was last looked at.
@@ -139,7 +152,7 @@ void ContactWetting::takeFromFilm(WetCloth& cloth, const Step& step, const Rigid
   // A body whose nodes and triangles both collide lists what touches twice.
   if (contact.point.count == 3 && m_hasNodeContacts) return;
   double* const film = filmOn(contact.object);
-  if (!film || !(*film > 0)) return;
+  if (!film || !(*film > 0) || isGone(cloth, contact)) return;
   Water& water = cloth.water();
   for (int k = 0; k < contact.point.count; ++k) {
     const int node = contact.point.nodes[static_cast<std::size_t>(k)];

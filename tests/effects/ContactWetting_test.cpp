@@ -196,6 +196,26 @@ TEST_P(ContactWettingInWorld, ABodyThatLeftTheWorldGivesNothing) {
 
 WETCLOTH_IN_EVERY_WORLD(ContactWettingInWorld);
 
+// A body that sleeps keeps its old list of contacts: it soaks on, until what it lies on has been taken away.
+TEST(ContactWettingAsleep, GoesOnWhileTheFloorIsThere) {
+  using Flags = btSoftBody::fCollision;
+  for (const int contacts : {Flags::SDF_RDN, Flags::SDF_RDF}) {
+    OnFloor cloth(WorldKind::deformable, 5, Flags::SDF_RD | contacts);
+    cloth.wet(kInfinite, 1e-4);
+    for (int i = 0; i < 240 && !(cloth.held() > 0); ++i) cloth.scene.step(1);
+    cloth.scene.body().forceActivationState(ISLAND_SLEEPING);
+    const double before = cloth.held();
+    ASSERT_GT(before, 0);
+    cloth.scene.step(1);
+    const double asleep = cloth.held();
+    EXPECT_GT(asleep, before) << contacts;
+    cloth.floor.body().getWorldTransform().setOrigin({0, -50, 0});
+    cloth.scene.step(1);
+    ASSERT_FALSE(cloth.scene.body().isActive());
+    EXPECT_EQ(cloth.held(), asleep) << contacts;
+  }
+}
+
 // A body whose triangles collide, not its nodes.
 TEST(ContactWettingByTriangles, TakesFromTheFilmToo) {
   using Flags = btSoftBody::fCollision;
