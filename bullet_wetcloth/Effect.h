@@ -34,9 +34,11 @@ struct Step {
 /// - its constructor checks its parameters and throws std::invalid_argument naming the field and the value;
 /// - attach() is called once, when the effect is added, and again whenever the body's nodes, links or faces
 ///   changed in number; it builds what apply() needs and throws std::invalid_argument when the body lacks it;
-/// - apply() never throws, never allocates after its first call, and never writes a value that is not finite;
-/// - it changes water only through WetCloth::water(), and velocities only through WetCloth::push(); at the stage
-///   `contact` neither: the position-based worlds would lose the velocities, and the commit has been.
+/// - apply() never throws, never writes a value that is not finite, and never allocates after its first call, but to
+///   factor a matrix anew when the step's length, the masses or the stiffness have changed;
+/// - it changes water only through WetCloth::water(), and velocities only through WetCloth::push(); water that leaves a
+///   node takes the velocity that the node has after WetCloth::joinArrivals(); at the stage `contact` it changes
+///   neither: the position-based worlds would lose the velocities, and the commit has been.
 class Effect {
  public:
   virtual ~Effect() = default;

@@ -232,6 +232,33 @@ TEST_P(WaterMomentumBetweenCloths, GivenAndTakenInTheStepInWhichItArrives) {
   }
 }
 
+// All that moves water or shares momentum inside of the cloths and between them; nothing leaves them.
+TEST_P(WaterMomentumBetweenCloths, StepsOfAnyLength) {
+  TwoCloths two(GetParam());
+  const btVector3 rain(1, -9, 2);
+  for (wetcloth::WetCloth* cloth : {two.first, two.second}) {
+    wetcloth::Absorption::Parameters soak;
+    std::vector<double> exposure;
+    for (int i = 0; i < cloth->nodeCount(); ++i) exposure.push_back((i % 4) / 30.0);
+    soak.exposure = exposure;
+    soak.waterVelocity = rain;
+    cloth->add<wetcloth::Absorption>(soak);
+    cloth->add<wetcloth::Diffusion>(fast());
+    cloth->add<wetcloth::Seepage>({0.1});
+    cloth->add<wetcloth::WetStiffness>({1, 1, 5, 50});
+  }
+  two.first->add<wetcloth::ContactWetting>(betweenCloths(0.5));
+  for (const double dt : {1e-6, 1e-3, 0.1, 1e-2, 10.0, 1e3}) {
+    scatterVelocities(two.first->body(), 1);
+    scatterVelocities(two.second->body(), 8);
+    const Vector before = two.momentum();
+    const double mass = two.first->totalMass() + two.second->totalMass();
+    two.step(dt);
+    const double arrived = two.first->totalMass() + two.second->totalMass() - mass;
+    expectNear(two.momentum(), plus(before, times(rain, arrived)), two.scale());
+  }
+}
+
 // What came after a cloth's turn is committed in the same step, so that nothing is left to be lost when it is cut.
 TEST_P(WaterMomentumBetweenCloths, ACutAfterTheStepFindsNothingPending) {
   TwoCloths two(GetParam());

@@ -37,7 +37,8 @@ double equalisingFlow(double difference, double responseA, double responseB, dou
 /// and `absorbed` in the other's; it brings the velocity of the node that it leaves, a film's that of its body.
 ///
 /// One of two cloths needs the effect. If both have it, the one that was added to the WetClothWorld first sees to the
-/// pair. Contacts are those of the last substep. The first step in which another cloth is met may allocate.
+/// pair. Contacts are those of the last substep; of a sleeping cloth those of when it fell asleep, but for a rigid body
+/// that has been moved since. The first step in which another cloth is met may allocate.
 class ContactWetting : public Effect {
  public:
   /// A rigid body (or any collision object that is not soft) with water on it.

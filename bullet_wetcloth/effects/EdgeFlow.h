@@ -30,7 +30,6 @@ class EdgeFlow {
   /// Weights are the conductances: weight times capacity per area, the harmonic mean of both ends' [kg/m^2].
   const std::vector<WeightedEdge>& edges() const { return m_edges; }
   const std::vector<double>& capacities() const { return m_capacity; }
-  const std::vector<double>& held() const { return m_held; }
   /// At most 1: what an over-full node holds beyond its capacity neither drives nor hinders a flow.
   double saturation(std::size_t node) const {
     return m_held[node] < m_capacity[node] ? m_held[node] / m_capacity[node] : 1;
@@ -43,7 +42,8 @@ class EdgeFlow {
   double moved() const;
 
   /// Moves the cloth's water, and gives the nodes the velocity that comes with it. `fluxes` is the sum of those that
-  /// went through limit() since load(). Does nothing when nothing moved.
+  /// went through limit() since load(). What arrived in this step joins its nodes first. Does nothing when nothing
+  /// moved.
   void commit(WetCloth& cloth, const std::vector<double>& fluxes);
 
  private:

@@ -19,8 +19,6 @@ class SparseFactor {
   void compute(const Eigen::SparseMatrix<double>& matrix);
 
   std::size_t size() const { return m_inverseDiagonal.size(); }
-  /// Entries of L below its diagonal.
-  std::size_t fill() const { return m_values.size(); }
   /// Where the matrix's row is in the vectors that solveInPlace() takes: rows are reordered to keep the factor sparse.
   int row(int matrixRow) const { return m_permutation[static_cast<std::size_t>(matrixRow)]; }
 

@@ -83,6 +83,8 @@ TEST(ClingOnABody, NodesThatAreNotFiniteDoNotSpoilTheRigidBody) {
   for (const int i : {3, 7}) scene.node(i).m_x.setX(std::numeric_limits<btScalar>::quiet_NaN());
   scene.preTick(kSubstep);
   EXPECT_EQ(cling.bonds(), 14);
+  EXPECT_TRUE(cling.isBonded(2));
+  EXPECT_FALSE(cling.isBonded(3));
   EXPECT_TRUE(std::isfinite(slab.body().getLinearVelocity().length()));
   EXPECT_TRUE(std::isfinite(slab.body().getAngularVelocity().length()));
 }
