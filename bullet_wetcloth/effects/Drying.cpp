@@ -31,7 +31,8 @@ void requireClimate(double temperature, double relativeHumidity) {
 }
 
 double stillAirRate(const Drying::Parameters& parameters) {
-  return parameters.sides * parameters.selfCooling * evaporationRate(parameters.temperature, parameters.relativeHumidity, 0);
+  return parameters.sides * parameters.selfCooling *
+         evaporationRate(parameters.temperature, parameters.relativeHumidity, 0);
 }
 
 }  // namespace
