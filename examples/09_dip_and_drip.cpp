@@ -26,7 +26,7 @@ int main() {
   info.water_offset = 0;
   info.water_density = 1000;
 
-  wetcloth::ClothPatch patch;  // half a metre, hung by its top edge 0.1 m above the pond
+  wetcloth::ClothPatch patch;  // half a metre, hung by its top edge, its hem 0.1 m above the pond
   patch.columns = patch.rows = 16;
   patch.origin = btVector3(0, btScalar(0.1), 0);
   patch.edgeU = btVector3(btScalar(0.5), 0, 0);

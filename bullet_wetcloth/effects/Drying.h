@@ -43,7 +43,7 @@ class Drying : public Effect {
     double criticalSaturation = 0.3;
     double sides = 2;  ///< of the cloth that air reaches, (0, 2]
     /// Share of the rate that remains when drying cools the cloth below the air, (0, 1]; 1: something keeps it as warm
-    /// as the air. 0.49 in calm air of 20 C, less in wind (docs/fabrics.md); two sides then dry 134 g/m^2/h by default.
+    /// as the air. 0.49 in calm air of 20 C, less in wind (docs/fabrics.md); two sides then dry 128 g/m^2/h by default.
     double selfCooling = 0.5;
     /// Share of a node's area that air reaches, [0, 1]: a constant, one value per node, or a function of the node's
     /// position and normal.

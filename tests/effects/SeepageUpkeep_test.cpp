@@ -22,7 +22,7 @@ TEST_P(SeepageMomentum, IsKept) {
     scene.node(i).m_v = scene.node(i).m_vn = btVector3(btScalar(std::sin(i)), btScalar(i % 5), btScalar(2 - i % 4));
   }
   const auto before = momentum(scene.body());
-  scene.cloth().add<Seepage>();
+  scene.cloth().add<Seepage>({1e-3, 3});
   for (int n = 0; n < 10; ++n) scene.preTick(10);
   EXPECT_LT(scene.cloth().saturation(35), 0.5);
   const auto after = momentum(scene.body());
