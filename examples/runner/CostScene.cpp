@@ -32,8 +32,8 @@ Scene costScene() {
   cloth.fabric = wetcloth::Fabric::cotton();
   patch.arealDensity = cloth.fabric.arealDensity;
   const Json effects = everyEffect();
-  cloth.effects = readEffects(JsonCursor(effects, scene.file, "/cloths/0/effects"), patch.nodeCount());
   cloth.shape = patch;
+  cloth.effects = readEffects(JsonCursor(effects, scene.file, "/cloths/0/effects"), {scene, cloth});
   scene.cloths.push_back(cloth);
   return scene;
 }

@@ -64,8 +64,8 @@ inline const KeyTable contactWetting{"contactWetting", {"films", "cloths", "rate
 
 inline const KeyTable film{"film", {"collider", "water_kg"}};
 
-inline const KeyTable diffusion{"diffusion",
-                                {"warp_diffusivity_m2_s", "weft_diffusivity_m2_s", "exponent", "warp", "method", "tolerance"}};
+inline const KeyTable diffusion{
+    "diffusion", {"warp_diffusivity_m2_s", "weft_diffusivity_m2_s", "exponent", "warp", "method", "tolerance"}};
 
 inline const KeyTable seepage{"seepage", {"speed_m_s", "exponent"}};
 
@@ -83,7 +83,8 @@ inline const KeyTable swelling{"swelling", {"saturated_strain"}};
 
 inline const KeyTable waterDrag{"waterDrag", {"drag_coefficient", "skin_friction", "fibre_density_kg_m3"}};
 
-inline const KeyTable cling{"cling", {"adhesion_pa", "shear_strength_pa", "minimum_saturation", "peak_saturation", "flooded_share"}};
+inline const KeyTable cling{
+    "cling", {"adhesion_pa", "shear_strength_pa", "minimum_saturation", "peak_saturation", "flooded_share"}};
 
 inline const KeyTable wetFriction{"wetFriction", {"wet_factor", "peak_saturation", "flooded_factor"}};
 
