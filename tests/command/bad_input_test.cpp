@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <functional>
 #include <ostream>
 #include <string>
@@ -11,15 +10,6 @@
 namespace {
 
 using namespace command;
-
-/// One line on standard error with all these words in it, nothing on standard output, status 2.
-void expectRefusal(const Outcome& outcome, const std::vector<std::string>& words) {
-  EXPECT_EQ(outcome.status, 2) << outcome.err;
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-  for (const std::string& word : words)
-    EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " in: " << outcome.err;
-}
 
 struct BadScene {
   std::string name;
