@@ -200,7 +200,13 @@ TEST(CommandBadInput, Usage) {
   expectRefusal(runWetcloth({"run", file, "--quality", "acurate"}), {"--quality", "\"acurate\"", "\"accurate\""});
   expectRefusal(runWetcloth({"run", file, "--duration", "-1"}), {"--duration", "-1"});
   expectRefusal(runWetcloth({"run", file, "--duration", "nan"}), {"--duration", "nan"});
-  expectRefusal(runWetcloth({"run", file, "--frame-count", "0"}), {"--frame-count", "0"});
+  expectRefusal(runWetcloth({"run", file, "--frames", directory.path("f"), "--frame-count", "0"}),
+                {"--frame-count", "0"});
+  expectRefusal(runWetcloth({"run", file, "--frame-count", "5"}), {"--frame-count", "--frames"});
+  for (const char* typo : {"--qualty", "--qualty=draft"}) {
+    expectRefusal(runWetcloth({"run", file, typo}), {"unknown option \"--qualty\"", "\"--quality\""});
+  }
+  expectRefusal(runWetcloth({"validate", file, "--json", "-"}), {"unknown option \"--json\""});
   expectRefusal(runWetcloth({"fall", "--mode", "vacuum"}), {"--mode", "\"vacuum\"", "paper, physical"});
   expectRefusal(runWetcloth({"fall", "--world", "flat"}), {"--world", "\"flat\"", "deformable"});
   for (const char* height : {"0", "-1", "nan", "inf", "1e9", "high"}) {

@@ -172,6 +172,18 @@ TEST(Run, WithoutJsonPrintsASummaryAndWithAFilePrintsBoth) {
   EXPECT_TRUE(readJson(directory.path("result.json")).contains("state_hash"));
 }
 
+TEST(Run, ARunThatIsRefusedLeavesNoFile) {
+  Json scene = smallScene();
+  scene["world"] = "deformable";
+  scene["cloths"][0]["effects"] = {{"wet_stiffness", Json::object()}};  // which only the library refuses
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("scene.json", scene.dump());
+  const std::string pictures = directory.path("pictures");
+  EXPECT_EQ(runWetcloth({"run", file, "--frames", pictures, "--json", directory.path("result.json")}).status, 2);
+  EXPECT_TRUE(std::filesystem::is_empty(pictures));
+  EXPECT_FALSE(std::filesystem::exists(directory.path("result.json")));
+}
+
 TEST(Run, ANonFiniteStateIsARunThatFailed) {
   Json scene = smallScene();
   scene["gravity_m_s2"] = {0, -3e38, 0};  // too much for float32
