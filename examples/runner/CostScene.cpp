@@ -25,7 +25,7 @@ Scene costScene() {
   scene.name = "built-in";
   scene.precision = ownPrecision;
   scene.water = WaterScene{0.1};
-  scene.colliders.push_back(Sphere{btVector3(btScalar(0.5), btScalar(0.5), btScalar(0.1)), 0.1});
+  scene.colliders.emplace_back(Sphere{btVector3(btScalar(0.5), btScalar(0.5), btScalar(0.1)), 0.1});
   ClothScene cloth;
   cloth.initialSaturation = 0.7;
   wetcloth::ClothPatch patch;

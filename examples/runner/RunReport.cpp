@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <utility>
 
 namespace runner {
 namespace {
@@ -35,12 +34,13 @@ double grams(double kilograms) {
 
 }  // namespace
 
-RunReport::RunReport(const SceneWorld& world, const RunTimes& times, const std::string& quality, DripRecord drips)
+RunReport::RunReport(const SceneWorld& world, const RunTimes& times, const std::string& quality,
+                     const DripRecord& drips)
     : m_scene(world.scene()),
       m_times(times),
       m_quality(quality),
       m_hash(stateHash(world)),
-      m_drips(std::move(drips)),
+      m_drips(drips),
       m_audit(sumOf(world.audits())),
       m_saturation(saturationOf(world)) {
   for (const btSoftBody* body : world.bodies()) measureBody(*body);

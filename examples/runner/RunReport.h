@@ -21,7 +21,7 @@ struct RunTimes {
 /// What a run came to.
 class RunReport {
  public:
-  RunReport(const SceneWorld& world, const RunTimes& times, const std::string& quality, DripRecord drips);
+  RunReport(const SceneWorld& world, const RunTimes& times, const std::string& quality, const DripRecord& drips);
 
   nlohmann::ordered_json json() const;
   /// The same, short, for people.
