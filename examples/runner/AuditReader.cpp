@@ -6,7 +6,7 @@ namespace runner {
 
 using wetcloth::CollisionAudit;
 
-AddEffect readCollisionAudit(JsonCursor cursor, int) {
+AddEffect readCollisionAudit(JsonCursor cursor, const EffectContext&) {
   using wetcloth::collision::Tier;
   static const std::vector<std::pair<std::string, Tier>> tiers{
       {"fast", Tier::fast}, {"conservative", Tier::conservative}, {"exact", Tier::exact}};

@@ -55,8 +55,11 @@ CLI::Validator oneOf(const std::string& option, const std::vector<std::string>& 
 void addRun(CLI::App& app, RunOptions& options, char** arguments) {
   CLI::App* const run = app.add_subcommand("run", "Run a scene");
   run->add_option("scene", options.scene, "Scene file (JSON, see docs/scenes.md)")->required();
-  run->add_option("--frames", options.frames, "Directory for pictures of the run, frame_0000.svg and so on");
-  run->add_option("--frame-count", options.frameCount, "How many pictures, evenly spaced")->capture_default_str();
+  CLI::Option* const frames =
+      run->add_option("--frames", options.frames, "Directory for pictures of the run, frame_0000.svg and so on");
+  run->add_option("--frame-count", options.frameCount, "How many pictures, evenly spaced")
+      ->capture_default_str()
+      ->needs(frames);
   run->add_option("--json", options.json, "File for the results as JSON; - is standard output, with nothing else");
   run->add_option("--quality", options.quality,
                   "Substeps and iterations, both: draft halves the scene's own, realtime leaves them as written, "
@@ -154,6 +157,21 @@ void requireKnownCommand(const CLI::App& app, int count, char** arguments) {
                    joined(names));
 }
 
+/// CLI11 names what it does not know, but not what was meant.
+void requireKnownOptions(const CLI::App& command, int count, char** arguments) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (int i = 2; i < count; ++i) {
+    const std::string word = std::string(arguments[i]).substr(0, std::string(arguments[i]).find('='));
+    if (word == "--") return;
+    if (word.rfind("--", 0) != 0 || std::find(names.begin(), names.end(), word) != names.end()) continue;
+    throw InputError("wetcloth: unknown option \"" + word + "\"; " + didYouMean(word, names) + "must be one of " +
+                     joined(names));
+  }
+}
+
 }  // namespace
 
 int runCommandLine(int count, char** arguments) {
@@ -173,6 +191,7 @@ int runCommandLine(int count, char** arguments) {
   addCcd(app, ccd, arguments);
   try {
     requireKnownCommand(app, count, arguments);
+    if (arguments[1][0] != '-') requireKnownOptions(*app.get_subcommand(arguments[1]), count, arguments);
     app.parse(count, arguments);
   } catch (const CLI::Success& help) {
     return app.exit(help);

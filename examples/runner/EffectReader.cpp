@@ -7,7 +7,7 @@ namespace {
 
 struct EffectKey {
   const char* key;
-  AddEffect (*read)(JsonCursor cursor, int nodes);
+  AddEffect (*read)(JsonCursor cursor, const EffectContext& context);
 };
 
 /// In the order in which they are added; springs before what changes them.
@@ -31,11 +31,11 @@ const EffectKey effectKeys[] = {{"hooke_springs", readHookeSprings},
 
 }  // namespace
 
-std::vector<EffectScene> readEffects(JsonCursor cursor, int nodes) {
+std::vector<EffectScene> readEffects(JsonCursor cursor, const EffectContext& context) {
   cursor.expectObject(keys::effects);
   std::vector<EffectScene> effects;
   for (const EffectKey& effect : effectKeys) {
-    if (const auto found = cursor.find(effect.key)) effects.push_back({effect.key, effect.read(*found, nodes)});
+    if (const auto found = cursor.find(effect.key)) effects.push_back({effect.key, effect.read(*found, context)});
   }
   return effects;
 }

@@ -1,27 +1,26 @@
 #pragma once
 
-#include "JsonCursor.h"
-#include "Scene.h"
+#include "EffectReader.h"
 
 namespace runner {
 
-// One for each effect: reads its object in a scene. `nodes` is the cloth's number of nodes.
-AddEffect readAbsorption(JsonCursor cursor, int nodes);
-AddEffect readImmersion(JsonCursor cursor, int nodes);
-AddEffect readRain(JsonCursor cursor, int nodes);
-AddEffect readSplash(JsonCursor cursor, int nodes);
-AddEffect readContactWetting(JsonCursor cursor, int nodes);
-AddEffect readDiffusion(JsonCursor cursor, int nodes);
-AddEffect readSeepage(JsonCursor cursor, int nodes);
-AddEffect readDripping(JsonCursor cursor, int nodes);
-AddEffect readDrying(JsonCursor cursor, int nodes);
-AddEffect readWetStiffness(JsonCursor cursor, int nodes);
-AddEffect readSwelling(JsonCursor cursor, int nodes);
-AddEffect readWind(JsonCursor cursor, int nodes);
-AddEffect readWaterDrag(JsonCursor cursor, int nodes);
-AddEffect readCling(JsonCursor cursor, int nodes);
-AddEffect readHookeSprings(JsonCursor cursor, int nodes);
-AddEffect readWetFriction(JsonCursor cursor, int nodes);
-AddEffect readCollisionAudit(JsonCursor cursor, int nodes);
+// One for each effect: reads its object in a scene.
+AddEffect readAbsorption(JsonCursor cursor, const EffectContext& context);
+AddEffect readImmersion(JsonCursor cursor, const EffectContext& context);
+AddEffect readRain(JsonCursor cursor, const EffectContext& context);
+AddEffect readSplash(JsonCursor cursor, const EffectContext& context);
+AddEffect readContactWetting(JsonCursor cursor, const EffectContext& context);
+AddEffect readDiffusion(JsonCursor cursor, const EffectContext& context);
+AddEffect readSeepage(JsonCursor cursor, const EffectContext& context);
+AddEffect readDripping(JsonCursor cursor, const EffectContext& context);
+AddEffect readDrying(JsonCursor cursor, const EffectContext& context);
+AddEffect readWetStiffness(JsonCursor cursor, const EffectContext& context);
+AddEffect readSwelling(JsonCursor cursor, const EffectContext& context);
+AddEffect readWind(JsonCursor cursor, const EffectContext& context);
+AddEffect readWaterDrag(JsonCursor cursor, const EffectContext& context);
+AddEffect readCling(JsonCursor cursor, const EffectContext& context);
+AddEffect readHookeSprings(JsonCursor cursor, const EffectContext& context);
+AddEffect readWetFriction(JsonCursor cursor, const EffectContext& context);
+AddEffect readCollisionAudit(JsonCursor cursor, const EffectContext& context);
 
 }  // namespace runner

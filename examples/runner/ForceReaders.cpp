@@ -8,7 +8,7 @@ using wetcloth::Cling;
 using wetcloth::WaterDrag;
 using wetcloth::Wind;
 
-AddEffect readWind(JsonCursor cursor, int) {
+AddEffect readWind(JsonCursor cursor, const EffectContext&) {
   using Law = Wind::Law;
   using Integration = Wind::Integration;
   static const std::vector<std::pair<std::string, Law>> laws{
@@ -29,8 +29,9 @@ AddEffect readWind(JsonCursor cursor, int) {
   return addEffect<Wind>(parameters);
 }
 
-AddEffect readWaterDrag(JsonCursor cursor, int) {
+AddEffect readWaterDrag(JsonCursor cursor, const EffectContext& context) {
   cursor.expectObject(keys::waterDrag);
+  requireWater(cursor, context.scene);
   WaterDrag::Parameters parameters;
   readNumber(cursor, "drag_coefficient", Range::notNegative(), parameters.dragCoefficient);
   readNumber(cursor, "skin_friction", Range::notNegative(), parameters.skinFriction);
@@ -38,14 +39,18 @@ AddEffect readWaterDrag(JsonCursor cursor, int) {
   return addEffect<WaterDrag>(parameters);
 }
 
-AddEffect readCling(JsonCursor cursor, int) {
+AddEffect readCling(JsonCursor cursor, const EffectContext&) {
   cursor.expectObject(keys::cling);
   Cling::Parameters parameters;
   readNumber(cursor, "adhesion_pa", Range::notNegative(), parameters.adhesion);
   readNumber(cursor, "shear_strength_pa", Range::notNegative(), parameters.shearStrength);
-  readNumber(cursor, "minimum_saturation", Range::fraction(), parameters.minimumSaturation);
+  readNumber(cursor, "minimum_saturation", Range{0, 1, true, "in [0, 1)", false}, parameters.minimumSaturation);
   readNumber(cursor, "peak_saturation", Range::positiveFraction(), parameters.peakSaturation);
   readNumber(cursor, "flooded_share", Range::fraction(), parameters.floodedShare);
+  if (!(parameters.minimumSaturation < parameters.peakSaturation)) {
+    const auto peak = cursor.find("peak_saturation");
+    (peak ? *peak : cursor.at("minimum_saturation")).complain("minimum_saturation must be below peak_saturation");
+  }
   return addEffect<Cling>(parameters);
 }
 

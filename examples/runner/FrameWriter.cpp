@@ -17,7 +17,12 @@ void requireWritable(const std::string& directory) {
   std::error_code failed;
   std::filesystem::create_directories(directory, failed);
   const std::filesystem::path probe = std::filesystem::path(directory) / "frame_0000.svg";
-  if (!failed && std::ofstream(probe, std::ios::app)) return;
+  std::error_code ignored;
+  const bool isNew = !std::filesystem::exists(probe, ignored);
+  if (!failed && std::ofstream(probe, std::ios::app)) {
+    if (isNew) std::filesystem::remove(probe, ignored);  // a run that fails leaves no empty picture
+    return;
+  }
   throw InputError("wetcloth: --frames = \"" + directory + "\": must be a directory that can be written to");
 }
 

@@ -20,6 +20,7 @@ struct Range {
   double high;
   bool lowIsIn;
   const char* text;
+  bool highIsIn = true;
 
   static Range finite() { return {-3.4e38, 3.4e38, true, "a finite number that float32 can hold"}; }
   static Range positive() { return {0, 3.4e38, false, "finite and > 0"}; }
@@ -27,7 +28,9 @@ struct Range {
   static Range fraction() { return {0, 1, true, "in [0, 1]"}; }
   static Range positiveFraction() { return {0, 1, false, "in (0, 1]"}; }
 
-  bool contains(double value) const { return (lowIsIn ? value >= low : value > low) && value <= high; }
+  bool contains(double value) const {
+    return (lowIsIn ? value >= low : value > low) && (highIsIn ? value <= high : value < high);
+  }
 };
 
 /// Reads a JSON file. Throws InputError, with line and column, when it is missing, empty, not JSON, or has an

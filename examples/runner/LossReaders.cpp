@@ -7,7 +7,7 @@ namespace runner {
 using wetcloth::Dripping;
 using wetcloth::Drying;
 
-AddEffect readDripping(JsonCursor cursor, int) {
+AddEffect readDripping(JsonCursor cursor, const EffectContext&) {
   cursor.expectObject(keys::dripping);
   Dripping::Parameters parameters;
   readNumber(cursor, "holding_saturation", Range::fraction(), parameters.holdingSaturation);
@@ -17,7 +17,7 @@ AddEffect readDripping(JsonCursor cursor, int) {
   return addEffect<Dripping>(parameters);
 }
 
-AddEffect readDrying(JsonCursor cursor, int nodes) {
+AddEffect readDrying(JsonCursor cursor, const EffectContext& context) {
   cursor.expectObject(keys::drying);
   Drying::Parameters parameters;
   readNumber(cursor, "temperature_c", Range{0, 60, true, "in [0, 60]"}, parameters.temperature);
@@ -26,7 +26,8 @@ AddEffect readDrying(JsonCursor cursor, int nodes) {
   readNumber(cursor, "self_cooling", Range::positiveFraction(), parameters.selfCooling);
   readNumber(cursor, "critical_saturation", Range::positiveFraction(), parameters.criticalSaturation);
   readNumber(cursor, "sides", Range{0, 2, false, "in (0, 2]"}, parameters.sides);
-  if (const auto exposure = cursor.find("exposure")) parameters.exposure = readExposure(*exposure, nodes);
+  if (const auto exposure = cursor.find("exposure"))
+    parameters.exposure = readExposure(*exposure, context.cloth.nodeCount());
   return addEffect<Drying>(parameters);
 }
 

@@ -9,7 +9,7 @@ using wetcloth::Swelling;
 using wetcloth::WetFriction;
 using wetcloth::WetStiffness;
 
-AddEffect readHookeSprings(JsonCursor cursor, int) {
+AddEffect readHookeSprings(JsonCursor cursor, const EffectContext&) {
   cursor.expectObject(keys::hookeSprings);
   HookeSprings::Parameters parameters;
   readNumber(cursor, "stiffness_n_m", Range::positive(), parameters.stiffness);
@@ -18,7 +18,7 @@ AddEffect readHookeSprings(JsonCursor cursor, int) {
   return addEffect<HookeSprings>(parameters);
 }
 
-AddEffect readWetStiffness(JsonCursor cursor, int) {
+AddEffect readWetStiffness(JsonCursor cursor, const EffectContext&) {
   cursor.expectObject(keys::wetStiffness);
   const Range factors{0.001, 1000, true, "in [0.001, 1000]"};
   WetStiffness::Parameters parameters;
@@ -29,14 +29,14 @@ AddEffect readWetStiffness(JsonCursor cursor, int) {
   return addEffect<WetStiffness>(parameters);
 }
 
-AddEffect readSwelling(JsonCursor cursor, int) {
+AddEffect readSwelling(JsonCursor cursor, const EffectContext&) {
   cursor.expectObject(keys::swelling);
   Swelling::Parameters parameters;
-  readNumber(cursor, "saturated_strain", Range{-0.5, 0.5, false, "in (-0.5, 0.5)"}, parameters.saturatedStrain);
+  readNumber(cursor, "saturated_strain", Range{-0.5, 0.5, false, "in (-0.5, 0.5)", false}, parameters.saturatedStrain);
   return addEffect<Swelling>(parameters);
 }
 
-AddEffect readWetFriction(JsonCursor cursor, int) {
+AddEffect readWetFriction(JsonCursor cursor, const EffectContext&) {
   cursor.expectObject(keys::wetFriction);
   WetFriction::Parameters parameters;
   readNumber(cursor, "wet_factor", Range::notNegative(), parameters.wetFactor);

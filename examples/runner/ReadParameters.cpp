@@ -22,6 +22,15 @@ wetcloth::WindField readGust(JsonCursor cursor) {
 
 }  // namespace
 
+btVector3 readDirection(const JsonCursor& cursor) {
+  const btVector3 direction = readVector(cursor);
+  // Shorter or longer ones have a square that float32 cannot hold.
+  if (!(direction.length() > btScalar(1e-9)) || !(direction.length() < btScalar(1e9))) {
+    cursor.reject("a direction, not of length 0");
+  }
+  return direction;
+}
+
 wetcloth::Exposure readExposure(JsonCursor cursor, int nodes) {
   if (cursor.isArray()) {
     std::vector<double> perNode;

@@ -8,8 +8,8 @@
 
 namespace runner {
 
-inline btVector3 readVector(const JsonCursor& cursor) {
-  const std::array<double, 3> xyz = cursor.triple();
+inline btVector3 readVector(const JsonCursor& cursor, const Range& range = Range::finite()) {
+  const std::array<double, 3> xyz = cursor.triple(range);
   return btVector3(btScalar(xyz[0]), btScalar(xyz[1]), btScalar(xyz[2]));
 }
 
@@ -21,6 +21,12 @@ inline void readVector(const JsonCursor& object, const char* key, btVector3& val
   if (const auto found = object.find(key)) value = readVector(*found);
 }
 
+/// A vector that tells where to.
+btVector3 readDirection(const JsonCursor& cursor);
+inline void readDirection(const JsonCursor& object, const char* key, btVector3& value) {
+  if (const auto found = object.find(key)) value = readDirection(*found);
+}
+
 enum class Mode { physical, paper };
 
 /// The defaults of an effect: the library's own, or the paper's letter by letter.
@@ -28,6 +34,11 @@ inline Mode readMode(const JsonCursor& cursor) {
   static const std::vector<std::pair<std::string, Mode>> modes{{"physical", Mode::physical}, {"paper", Mode::paper}};
   const auto mode = cursor.find("mode");
   return mode ? mode->choice(modes) : Mode::physical;
+}
+
+/// Complains about an effect that needs water in a scene that has none.
+inline void requireWater(const JsonCursor& effect, const Scene& scene) {
+  if (!scene.water) effect.complain("the scene must say where its water is, /water");
 }
 
 /// One value for each node, one for all, or `{"below_m": y}`. @param nodes of the cloth

@@ -1,5 +1,6 @@
 #include "RunCommand.h"
 
+#include "DripRecord.h"
 #include "Errors.h"
 #include "FrameWriter.h"
 #include "JsonOutput.h"
@@ -97,18 +98,20 @@ void runScene(const RunOptions& options, char** arguments) {
   const int steps = std::max(1, static_cast<int>(std::lround(scene.duration / scene.step)));
   FrameWriter frames(options.frames, options.frameCount, steps);
   Run run(scene);
+  DripRecord drips(steps);
   {
     Progress progress("running " + scene.name);
     frames.offer(run.world(), 0);
     for (int step = 1; step <= steps; ++step) {
       run.step();
+      drips.note(run.world());
       frames.offer(run.world(), step);
       progress.update(static_cast<double>(step) / steps);
     }
     frames.write(run.world());
   }
   run.finish();
-  const RunReport report(run.world(), run.times(), options.quality);
+  const RunReport report(run.world(), run.times(), options.quality, drips);
   output.write(report.json());
   if (output.ownsStandardOutput()) return;
   std::fputs(report.summary().c_str(), stdout);

@@ -26,19 +26,21 @@ std::optional<wetcloth::AuditTotals> sumOf(const std::vector<wetcloth::Collision
   return sum;
 }
 
-/// As "%.1f" shows it: what rounding leaves below 0 must not be "-0.0".
+/// To a tenth of a gram, and no "-0.0" for what rounding has left below nothing.
 double grams(double kilograms) {
-  const double value = 1e3 * kilograms;
-  return std::abs(value) < 0.05 ? 0 : value;
+  const double tenths = std::round(1e4 * kilograms);
+  return tenths == 0 ? 0 : tenths / 10;
 }
 
 }  // namespace
 
-RunReport::RunReport(const SceneWorld& world, const RunTimes& times, const std::string& quality)
+RunReport::RunReport(const SceneWorld& world, const RunTimes& times, const std::string& quality,
+                     const DripRecord& drips)
     : m_scene(world.scene()),
       m_times(times),
       m_quality(quality),
       m_hash(stateHash(world)),
+      m_drips(drips),
       m_audit(sumOf(world.audits())),
       m_saturation(saturationOf(world)) {
   for (const btSoftBody* body : world.bodies()) measureBody(*body);
@@ -97,6 +99,7 @@ nlohmann::ordered_json RunReport::json() const {
   json["bullet_ms_per_step"] = m_times.plainMilliseconds;
   json["ledger"] = {{"initial", m_ledger.initial}, {"absorbed", m_ledger.absorbed}, {"evaporated", m_ledger.evaporated},
                     {"dripped", m_ledger.dripped}, {"held", m_ledger.held},         {"run_off", m_ledger.runOff}};
+  if (m_drips.isOn()) json["drips"] = m_drips.json();
   json["saturation"] = {{"min", m_saturation.min}, {"mean", m_saturation.mean}, {"max", m_saturation.max}};
   if (m_audit) {
     json["audit"] = {{"vertex_face", m_audit->vertexFace},
@@ -111,6 +114,20 @@ nlohmann::ordered_json RunReport::json() const {
   return json;
 }
 
+std::string RunReport::waterLines() const {
+  char text[240];
+  std::snprintf(text, sizeof text, "%-15s%.1f g held = %.1f initial + %.1f absorbed - %.1f dripped - %.1f evaporated\n",
+                "water", grams(m_ledger.held), grams(m_ledger.initial), grams(m_ledger.absorbed),
+                grams(m_ledger.dripped), grams(m_ledger.evaporated));
+  std::string lines = text + m_drips.line();
+  if (m_ledger.runOff > 0) {
+    std::snprintf(text, sizeof text, "%-15s%.3g g struck the cloth and were not taken in\n", "run-off",
+                  1e3 * m_ledger.runOff);
+    lines += text;
+  }
+  return lines;
+}
+
 std::string RunReport::auditLine() const {
   if (!m_audit) return "";
   char text[200];
@@ -119,37 +136,28 @@ std::string RunReport::auditLine() const {
   return text;
 }
 
-std::string RunReport::runOffLine() const {
-  if (!(m_ledger.runOff > 0)) return "";
-  char text[100];
-  std::snprintf(text, sizeof text, "%-15s%.3g g struck the cloth and ran off\n", "run-off", 1e3 * m_ledger.runOff);
-  return text;
-}
-
 std::string RunReport::summary() const {
   char text[1600];
-  std::snprintf(text, sizeof text,
-                "%-15s%s (%s, %s, %s)\n"
-                "%-15s%d of %.4g s (%.4g s), each %d substeps of %d iterations\n"
-                "%-15s%d nodes, %d links\n"
-                "%-15s%s\n"
-                "%-15s%.3f ms per step; plain Bullet %.3f ms (ratio %.2f)\n"
-                "%-15s%.1f g held = %.1f initial + %.1f absorbed - %.1f dripped - %.1f evaporated\n"
-                "%-15s%.2f to %.2f, mean %.2f\n"
-                "%-15s(%.3f, %.3f, %.3f) m\n"
-                "%-15sspeed %.3g m/s, link length %.3f of its rest length\n"
-                "%-15s%s\n",
-                "scene", m_scene.name.c_str(), nameOf(m_scene.world).c_str(), nameOf(ownPrecision).c_str(),
-                m_quality.c_str(), "steps", m_times.steps, m_scene.step, m_times.steps * m_scene.step, m_scene.substeps,
-                m_scene.iterations, "mesh", m_nodes, m_links, "effects",
-                m_effects.empty() ? "none" : joined(m_effects).c_str(), "time", m_times.wetMilliseconds,
-                m_times.plainMilliseconds,
-                m_times.plainMilliseconds > 0 ? m_times.wetMilliseconds / m_times.plainMilliseconds : 0., "water",
-                grams(m_ledger.held), grams(m_ledger.initial), grams(m_ledger.absorbed), grams(m_ledger.dripped),
-                grams(m_ledger.evaporated), "saturation", m_saturation.min, m_saturation.max, m_saturation.mean,
-                "centre of mass", m_moment[0] / m_mass, m_moment[1] / m_mass, m_moment[2] / m_mass, "largest",
-                m_maxSpeed, m_maxStretch, "state hash", m_hash.c_str());
-  return text + runOffLine() + auditLine();
+  std::snprintf(
+      text, sizeof text,
+      "%-15s%s (%s, %s, %s)\n"
+      "%-15s%d of %.4g s (%.4g s), each %d substeps of %d iterations\n"
+      "%-15s%d nodes, %d links\n"
+      "%-15s%s\n"
+      "%-15s%.3f ms per step; plain Bullet %.3f ms (ratio %.2f)\n"
+      "%s"
+      "%-15s%.2f to %.2f, mean %.2f\n"
+      "%-15s(%.3f, %.3f, %.3f) m\n"
+      "%-15sspeed %.3g m/s, link length %.3f of its rest length\n"
+      "%-15s%s\n",
+      "scene", m_scene.name.c_str(), nameOf(m_scene.world).c_str(), nameOf(ownPrecision).c_str(), m_quality.c_str(),
+      "steps", m_times.steps, m_scene.step, m_times.steps * m_scene.step, m_scene.substeps, m_scene.iterations, "mesh",
+      m_nodes, m_links, "effects", m_effects.empty() ? "none" : joined(m_effects).c_str(), "time",
+      m_times.wetMilliseconds, m_times.plainMilliseconds,
+      m_times.plainMilliseconds > 0 ? m_times.wetMilliseconds / m_times.plainMilliseconds : 0., waterLines().c_str(),
+      "saturation", m_saturation.min, m_saturation.max, m_saturation.mean, "centre of mass", m_moment[0] / m_mass,
+      m_moment[1] / m_mass, m_moment[2] / m_mass, "largest", m_maxSpeed, m_maxStretch, "state hash", m_hash.c_str());
+  return text + auditLine();
 }
 
 }  // namespace runner

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "DripRecord.h"
 #include "Saturation.h"
 #include "SceneWorld.h"
 
@@ -20,7 +21,7 @@ struct RunTimes {
 /// What a run came to.
 class RunReport {
  public:
-  RunReport(const SceneWorld& world, const RunTimes& times, const std::string& quality);
+  RunReport(const SceneWorld& world, const RunTimes& times, const std::string& quality, const DripRecord& drips);
 
   nlohmann::ordered_json json() const;
   /// The same, short, for people.
@@ -29,13 +30,14 @@ class RunReport {
  private:
   void measureBody(const btSoftBody& body);
   void measureCloth(const wetcloth::WetCloth& cloth);
-  std::string runOffLine() const;
+  std::string waterLines() const;
   std::string auditLine() const;
 
   const Scene& m_scene;
   RunTimes m_times;
   std::string m_quality;
   std::string m_hash;
+  DripRecord m_drips;
   int m_nodes = 0;
   int m_links = 0;
   std::vector<std::string> m_effects;

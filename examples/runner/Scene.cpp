@@ -33,6 +33,17 @@ bool ClothScene::hasEffect(const std::string& key) const {
   return std::any_of(effects.begin(), effects.end(), [&](const EffectScene& effect) { return effect.key == key; });
 }
 
+int ClothScene::nodeCount() const {
+  if (const auto* patch = std::get_if<wetcloth::ClothPatch>(&shape)) return patch->nodeCount();
+  return static_cast<int>(std::get<TriangleMesh>(shape).vertices.size());
+}
+
+bool ClothScene::hasPins() const {
+  const auto* patch = std::get_if<wetcloth::ClothPatch>(&shape);
+  if (patch == nullptr) return !pinnedNodes.empty();
+  return !(patch->pinnedCorners.empty() && patch->pinnedEdges.empty() && patch->pinnedNodes.empty());
+}
+
 btVector3 Scene::up() const { return gravity.length() > 0 ? btVector3(-gravity.normalized()) : btVector3(0, 1, 0); }
 
 std::string nameOf(WorldKind world) { return nameIn(worldNames(), world); }

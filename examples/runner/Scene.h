@@ -92,6 +92,8 @@ struct ClothScene {
   std::vector<EffectScene> effects;  ///< in the order in which they are added
 
   bool hasEffect(const std::string& key) const;
+  int nodeCount() const;
+  bool hasPins() const;
 };
 
 struct Plane {

@@ -4,6 +4,7 @@
 #include "Errors.h"
 #include "JsonCursor.h"
 #include "ObjReader.h"
+#include "ReadParameters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,26 +19,6 @@ using wetcloth::ClothPatch;
 constexpr int mostNodesAlongAnEdge = 4096;
 constexpr int mostNodes = 1000000;
 
-btVector3 vectorOf(const std::array<double, 3>& xyz) {
-  return btVector3(btScalar(xyz[0]), btScalar(xyz[1]), btScalar(xyz[2]));
-}
-
-/// Overwrites a default when the key is there.
-void readNumber(const JsonCursor& object, const char* key, const Range& range, double& value) {
-  if (const auto found = object.find(key)) value = found->number(range);
-}
-void readVector(const JsonCursor& object, const char* key, btVector3& value) {
-  if (const auto found = object.find(key)) value = vectorOf(found->triple());
-}
-
-btVector3 readDirection(const JsonCursor& cursor) {
-  const btVector3 direction = vectorOf(cursor.triple());
-  if (!(direction.length() > btScalar(1e-9)) || !(direction.length() < btScalar(1e9))) {
-    cursor.reject("a direction, not of length 0");
-  }
-  return direction.normalized();
-}
-
 ClothPatch readPatch(JsonCursor cursor) {
   cursor.expectObject(keys::patch);
   ClothPatch patch;
@@ -45,8 +26,8 @@ ClothPatch readPatch(JsonCursor cursor) {
   if (const auto rows = cursor.find("rows")) patch.rows = rows->integer(2, mostNodesAlongAnEdge);
   if (patch.nodeCount() > mostNodes) cursor.complain("columns x rows must be at most 1000000");
   readVector(cursor, "origin_m", patch.origin);
-  patch.edgeU = vectorOf(cursor.at("edge_u_m").triple());
-  patch.edgeV = vectorOf(cursor.at("edge_v_m").triple());
+  patch.edgeU = readVector(cursor.at("edge_u_m"));
+  patch.edgeV = readVector(cursor.at("edge_v_m"));
   const btScalar lengths = patch.edgeU.length() * patch.edgeV.length();
   if (!(patch.edgeU.cross(patch.edgeV).length() > btScalar(1e-6) * lengths)) {
     cursor.at("edge_v_m").reject("across edge_u_m; the two must not be parallel, nor of length 0");
@@ -136,11 +117,6 @@ void readPins(JsonCursor cursor, ClothScene& cloth) {
   }
 }
 
-int nodeCountOf(const ClothScene& cloth) {
-  if (const auto* patch = std::get_if<ClothPatch>(&cloth.shape)) return patch->nodeCount();
-  return static_cast<int>(std::get<TriangleMesh>(cloth.shape).vertices.size());
-}
-
 void readSprings(const JsonCursor& cursor, WorldKind world, DeformableSprings& springs) {
   for (const char* key : {"spring_stiffness_n_m", "bending_stiffness_n_m", "spring_damping_n_s_m"}) {
     const auto found = cursor.find(key);
@@ -175,7 +151,7 @@ int readCollisionFlags(const JsonCursor& cursor) {
 void readCollisions(const JsonCursor& cursor, ClothScene& cloth) {
   if (const auto flags = cursor.find("collisions")) cloth.collisions = readCollisionFlags(*flags);
   if (const auto self = cursor.find("self_collision")) cloth.selfCollision = self->boolean();
-  if (const auto clusters = cursor.find("clusters")) cloth.clusters = clusters->integer(0, nodeCountOf(cloth));
+  if (const auto clusters = cursor.find("clusters")) cloth.clusters = clusters->integer(0, cloth.nodeCount());
 }
 
 TwistScene readTwist(JsonCursor cursor, const ClothScene& cloth) {
@@ -192,8 +168,10 @@ TwistScene readTwist(JsonCursor cursor, const ClothScene& cloth) {
   return twist;
 }
 
-MotionScene readMotion(JsonCursor cursor) {
+MotionScene readMotion(JsonCursor cursor, const ClothScene& cloth) {
   cursor.expectObject(keys::motion);
+  if (!cloth.hasPins()) cursor.complain("moves the cloth's pins, and it has none");
+  if (cloth.twist) cursor.complain("must not be there beside twist, which moves pins, too");
   MotionScene motion;
   for (const JsonCursor& time : cursor.at("times_s").elements()) {
     if (!motion.times.empty() && !(time.number(Range::notNegative()) > motion.times.back())) {
@@ -203,7 +181,7 @@ MotionScene readMotion(JsonCursor cursor) {
   }
   if (motion.times.empty()) cursor.at("times_s").reject("an array with at least one time");
   for (const JsonCursor& offset : cursor.at("offsets_m").elements()) {
-    motion.offsets.push_back(vectorOf(offset.triple()));
+    motion.offsets.push_back(readVector(offset));
   }
   if (motion.offsets.size() != motion.times.size()) {
     cursor.at("offsets_m").complain("must have one offset for each of times_s, " + std::to_string(motion.times.size()));
@@ -211,7 +189,7 @@ MotionScene readMotion(JsonCursor cursor) {
   return motion;
 }
 
-ClothScene readCloth(JsonCursor cursor, WorldKind world) {
+ClothScene readCloth(JsonCursor cursor, const Scene& scene) {
   cursor.expectObject(keys::cloth);
   ClothScene cloth;
   if (const auto name = cursor.find("name")) cloth.name = name->text();
@@ -225,32 +203,32 @@ ClothScene readCloth(JsonCursor cursor, WorldKind world) {
   if (const auto pins = cursor.find("pins")) readPins(*pins, cloth);
   readNumber(cursor, "initial_saturation", Range::fraction(), cloth.initialSaturation);
   readNumber(cursor, "friction", Range::fraction(), cloth.friction);
-  readDamping(cursor, world, cloth);
+  readDamping(cursor, scene.world, cloth);
   readNumber(cursor, "margin_m", Range::positive(), cloth.margin);
   readCollisions(cursor, cloth);
   if (const auto twist = cursor.find("twist")) cloth.twist = readTwist(*twist, cloth);
-  if (const auto motion = cursor.find("motion")) cloth.motion = readMotion(*motion);
-  readSprings(cursor, world, cloth.springs);
-  if (const auto effects = cursor.find("effects")) cloth.effects = readEffects(*effects, nodeCountOf(cloth));
+  if (const auto motion = cursor.find("motion")) cloth.motion = readMotion(*motion, cloth);
+  readSprings(cursor, scene.world, cloth.springs);
+  if (const auto effects = cursor.find("effects")) cloth.effects = readEffects(*effects, {scene, cloth});
   return cloth;
 }
 
 Plane readPlane(JsonCursor cursor) {
   cursor.expectObject(keys::plane);
   Plane plane{btVector3(0, 1, 0), 0};
-  if (const auto normal = cursor.find("normal")) plane.normal = readDirection(*normal);
+  if (const auto normal = cursor.find("normal")) plane.normal = readDirection(*normal).normalized();
   readNumber(cursor, "offset_m", Range::finite(), plane.offset);
   return plane;
 }
 
 Box readBox(JsonCursor cursor) {
   cursor.expectObject(keys::box);
-  return {vectorOf(cursor.at("centre_m").triple()), vectorOf(cursor.at("half_extents_m").triple(Range::positive()))};
+  return {readVector(cursor.at("centre_m")), readVector(cursor.at("half_extents_m"), Range::positive())};
 }
 
 Sphere readSphere(JsonCursor cursor) {
   cursor.expectObject(keys::sphere);
-  return {vectorOf(cursor.at("centre_m").triple()), cursor.at("radius_m").number(Range::positive())};
+  return {readVector(cursor.at("centre_m")), cursor.at("radius_m").number(Range::positive())};
 }
 
 Collider readCollider(JsonCursor cursor) {
@@ -272,7 +250,7 @@ WaterScene readWater(JsonCursor cursor) {
 CameraScene readCamera(JsonCursor cursor) {
   cursor.expectObject(keys::camera);
   CameraScene camera;
-  if (const auto direction = cursor.find("direction")) camera.direction = readDirection(*direction);
+  if (const auto direction = cursor.find("direction")) camera.direction = readDirection(*direction).normalized();
   readNumber(cursor, "field_of_view_deg", Range{5, 120, true, "from 5 to 120"}, camera.fieldOfView);
   return camera;
 }
@@ -307,14 +285,14 @@ Scene readScene(const std::string& file) {
   }
   if (const auto name = cursor.find("name")) scene.name = name->text();
   readWorld(cursor, scene);
-  for (const JsonCursor& cloth : cursor.at("cloths").elements()) {
-    scene.cloths.push_back(readCloth(cloth, scene.world));
-  }
-  if (scene.cloths.empty()) cursor.at("cloths").reject("an array with at least one cloth");
   if (const auto colliders = cursor.find("colliders")) {
     for (const JsonCursor& collider : colliders->elements()) scene.colliders.push_back(readCollider(collider));
   }
   if (const auto water = cursor.find("water")) scene.water = readWater(*water);
+  for (const JsonCursor& cloth : cursor.at("cloths").elements()) {
+    scene.cloths.push_back(readCloth(cloth, scene));
+  }
+  if (scene.cloths.empty()) cursor.at("cloths").reject("an array with at least one cloth");
   if (const auto camera = cursor.find("camera")) scene.camera = readCamera(*camera);
   return scene;
 }

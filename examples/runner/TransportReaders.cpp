@@ -7,7 +7,7 @@ namespace runner {
 using wetcloth::Diffusion;
 using wetcloth::Seepage;
 
-AddEffect readDiffusion(JsonCursor cursor, int) {
+AddEffect readDiffusion(JsonCursor cursor, const EffectContext&) {
   using Method = Diffusion::Method;
   static const std::vector<std::pair<std::string, Method>> methods{{"factored", Method::factored},
                                                                    {"explicit_substeps", Method::explicitSubsteps},
@@ -17,17 +17,13 @@ AddEffect readDiffusion(JsonCursor cursor, int) {
   readNumber(cursor, "warp_diffusivity_m2_s", Range::positive(), parameters.warpDiffusivity);
   readNumber(cursor, "weft_diffusivity_m2_s", Range::positive(), parameters.weftDiffusivity);
   readNumber(cursor, "exponent", Range{0, 100, true, "in [0, 100]"}, parameters.exponent);
-  readVector(cursor, "warp", parameters.warp);
+  readDirection(cursor, "warp", parameters.warp);
   if (const auto method = cursor.find("method")) parameters.method = method->choice(methods);
-  if (const auto tolerance = cursor.find("tolerance")) {
-    const Range inside{0, 1, false, "in (0, 1)"};
-    parameters.tolerance = tolerance->number(inside);
-    if (!(parameters.tolerance < 1)) tolerance->reject(inside.text);
-  }
+  readNumber(cursor, "tolerance", Range{0, 1, false, "in (0, 1)", false}, parameters.tolerance);
   return addEffect<Diffusion>(parameters);
 }
 
-AddEffect readSeepage(JsonCursor cursor, int) {
+AddEffect readSeepage(JsonCursor cursor, const EffectContext&) {
   cursor.expectObject(keys::seepage);
   Seepage::Parameters parameters;
   readNumber(cursor, "speed_m_s", Range::notNegative(), parameters.speed);

@@ -21,6 +21,13 @@ Outcome runProgram(const std::vector<std::string>& words);
 /// Runs `wetcloth` with these arguments.
 Outcome runWetcloth(const std::vector<std::string>& arguments);
 
+/// Runs a scene file, which must succeed, in this test program's precision; returns its results.
+Json runScene(const std::string& file, const std::vector<std::string>& more = {});
+Json runScene(const Json& scene, const std::vector<std::string>& more = {});
+
+/// One line on standard error with all these words in it, nothing on standard output, status 2.
+void expectRefusal(const Outcome& outcome, const std::vector<std::string>& words);
+
 /// The name of this test program's precision, for --precision.
 std::string ownPrecision();
 

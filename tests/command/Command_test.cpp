@@ -45,6 +45,28 @@ Outcome runWetcloth(const std::vector<std::string>& arguments) {
   return runProgram(words);
 }
 
+Json runScene(const std::string& file, const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"run", file, "--json", "-", "--precision", ownPrecision()};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Outcome outcome = runWetcloth(arguments);
+  EXPECT_EQ(outcome.status, 0) << file << ": " << outcome.err;
+  return outcome.status == 0 ? Json::parse(outcome.out) : Json();
+}
+
+Json runScene(const Json& scene, const std::vector<std::string>& more) {
+  const TemporaryDirectory directory;
+  return runScene(directory.write("scene.json", scene.dump()), more);
+}
+
+void expectRefusal(const Outcome& outcome, const std::vector<std::string>& words) {
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  for (const std::string& word : words) {
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " in: " << outcome.err;
+  }
+}
+
 std::string ownPrecision() {
 #ifdef BT_USE_DOUBLE_PRECISION
   return "float64";

@@ -8,14 +8,6 @@ namespace {
 
 using namespace command;
 
-Json runScene(const Json& scene) {
-  const TemporaryDirectory directory;
-  const std::string file = directory.write("scene.json", scene.dump());
-  const Outcome outcome = runWetcloth({"run", file, "--json", "-", "--precision", ownPrecision()});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  return outcome.status == 0 ? Json::parse(outcome.out) : Json();
-}
-
 /// A sheet that is wrung, small and short.
 Json wrungSheet() {
   Json scene = readJson(sceneFile("audit_twist"));

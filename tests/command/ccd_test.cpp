@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -80,15 +79,6 @@ Json resultOf(const std::string& file, const std::string& method, std::vector<st
   const Outcome outcome = ccd(more);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   return outcome.status == 0 ? Json::parse(outcome.out) : Json();
-}
-
-/// One line on standard error with all these words in it, nothing on standard output, status 2.
-void expectRefusal(const Outcome& outcome, const std::vector<std::string>& words) {
-  EXPECT_EQ(outcome.status, 2) << outcome.err;
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-  for (const std::string& word : words)
-    EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " in: " << outcome.err;
 }
 
 struct BadLine {

@@ -67,6 +67,7 @@ TEST(Schema, AcceptsEveryScene) {
   if (!hasJsonSchema()) GTEST_SKIP() << "python3 has no jsonschema (Debian: python3-jsonschema)";
   std::vector<std::string> files = sceneFiles();
   files.push_back(WETCLOTH_SOURCE_DIR "/tests/scenes/small.json");
+  files.push_back(WETCLOTH_SOURCE_DIR "/tests/scenes/water_cycle.json");
   EXPECT_EQ(complaints(files), "");
 }
 
