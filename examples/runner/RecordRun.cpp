@@ -117,11 +117,17 @@ void requireMemory(const Scene& scene, double frames) {
   throw InputError(scene.file + text);
 }
 
-void dropZeros(std::vector<pictures::Series>& series) {
-  const auto isZero = [](const pictures::Series& one) {
-    return std::all_of(one.values.begin(), one.values.end(), [](double value) { return value == 0; });
-  };
-  series.erase(std::remove_if(series.begin(), series.end(), isZero), series.end());
+/// Keeps what has something to tell: no zeros throughout, nothing that is the same as one before it.
+std::vector<pictures::Series> telling(const std::vector<pictures::Series>& all) {
+  std::vector<pictures::Series> kept;
+  for (const pictures::Series& one : all) {
+    const bool isZero = std::all_of(one.values.begin(), one.values.end(), [](double value) { return value == 0; });
+    const bool isKnown = std::any_of(kept.begin(), kept.end(), [&](const pictures::Series& other) {
+      return other.unit == one.unit && other.values == one.values;
+    });
+    if (!isZero && !isKnown) kept.push_back(one);
+  }
+  return kept;
 }
 
 }  // namespace
@@ -143,7 +149,7 @@ pictures::Recording recordRun(const Scene& scene, double framesPerSecond) {
   pictures::Recording& recording = sampler.recording();
   recording.scenery = recorder.scenery();
   recording.cloths = recorder.cloths();
-  dropZeros(recording.series);
+  recording.series = telling(recording.series);
   return std::move(recording);
 }
 

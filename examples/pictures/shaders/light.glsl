@@ -17,7 +17,7 @@ vec3 sky(vec3 direction) {
 // Share of the lamp's light that arrives, [0, 1].
 float lit(vec3 place) {
   vec3 inMap = (shadowFromWorld * vec4(place, 1)).xyz;
-  float sum = 0;
+  float sum = 0.0;
   for (int i = 0; i < 8; ++i) sum += texture(shadowMap, vec3(inMap.xy + disc[i] * shadow.y, inMap.z));
   return sum * 0.125;
 }
