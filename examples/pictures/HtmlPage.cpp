@@ -98,6 +98,7 @@ nlohmann::json shaders() {
           {"solidVertex", embedded::solid_vert_glsl},
           {"solidFragment", embedded::solid_frag_glsl},
           {"groundVertex", embedded::ground_vert_glsl},
+          {"groundShadow", embedded::ground_shaded_glsl},
           {"groundFragment", embedded::ground_frag_glsl},
           {"waterFragment", embedded::water_frag_glsl},
           {"backdropVertex", embedded::backdrop_vert_glsl},

@@ -1,5 +1,5 @@
 const icons = {play: 'M7 4.5v15l13-7.5z', pause: 'M6 5h4v14H6zM14 5h4v14h-4z'};
-const paces = [0.125, 0.25, 0.5, 1, 2, 4];
+const paces = [0.125, 0.25, 0.5, 1, 2, 4, 8, 16];
 const scaleTitles = {saturation: 'saturation [%]', stretch: 'length / rest length', speed: 'speed [m/s]'};
 const byId = (id) => document.getElementById(id);
 

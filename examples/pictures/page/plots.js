@@ -86,7 +86,7 @@ class Plot {
   }
 
   drawAxes() {
-    for (const value of ticks(this.low, this.high, 3)) {
+    for (const value of ticks(this.low, this.high, 4)) {
       const y = this.y(value);
       svg('line', {class: 'grid', x1: plotSize.left, x2: plotSize.width - plotSize.right, y1: y, y2: y}, this.svg);
       svg('text', {x: plotSize.left - 5, y: y + 3.5, 'text-anchor': 'end'}, this.svg).textContent = tickText(value);

@@ -1,4 +1,4 @@
-const threads = 160;  // across a cloth; real ones would be finer than pixels
+const threads = 128;  // across a cloth; real ones would be finer than pixels
 const shadowTexels = 1024;
 const shadowSoftness = 0.012;  // over the size of what there is to see
 const stone = {albedo: [0.50, 0.42, 0.33], roughness: 0.7};
@@ -163,6 +163,14 @@ function ballAround(points) {
   return {middle: scaled(sum(low, high), 0.5), radius: Math.max(length(difference(high, low)) / 2, 1e-3)};
 }
 
+/** How much greater the depth is a little farther from the eye than a place. */
+function depthStep(clipFromWorld, eye, place, distance) {
+  const row = (i, at) =>
+    [0, 1, 2].reduce((all, k) => all + clipFromWorld[4 * k + i] * at[k], clipFromWorld[12 + i]);
+  const depthAt = (at) => row(2, at) / row(3, at);
+  return depthAt(sum(place, scaled(unit(difference(place, eye)), distance))) - depthAt(place);
+}
+
 /** Draws the run as the pictures of `wetcloth render` show it. */
 class Renderer {
   constructor(canvas, run) {
@@ -191,7 +199,7 @@ class Renderer {
       cloth: program(shaders.clothVertex, light, clothLight, shaders.clothFragment),
       measured: program(shaders.clothVertex, light, clothLight, shaders.measuredFragment),
       solid: program(shaders.solidVertex, light, shaders.solidFragment),
-      ground: program(shaders.groundVertex, light, backdrop, shaders.groundFragment),
+      ground: program(shaders.groundVertex, light, backdrop, shaders.groundShadow, shaders.groundFragment),
       water: program(shaders.groundVertex, light, shaders.waterFragment),
       backdrop: program(shaders.backdropVertex, light, backdrop, shaders.backdropFragment),
     };
@@ -256,8 +264,10 @@ class Renderer {
     const distance = length(difference(ball.middle, look.eye));
     const nearest = Math.max((distance - ball.radius) / 2, 0.01 * ball.radius);
     const lens = perspective(look.tangentX, look.tangentY, nearest, distance + 80 * ball.radius);
+    const clipFromWorld = product(lens, lookFrom(look.eye, look.right, look.above, look.forward));
+    this.behind = depthStep(clipFromWorld, look.eye, ball.middle, 0.012 * this.size);
     this.block.set({
-      clipFromWorld: product(lens, lookFrom(look.eye, look.right, look.above, look.forward)),
+      clipFromWorld,
       shadowFromWorld: this.shadowMap.fromWorld(),
       eye: [...look.eye, 1],
       towardsLamp: [...this.lamp, 0],
@@ -286,7 +296,7 @@ class Renderer {
   drawSolids(drops) {
     const {gl, programs: {solid}} = this;
     gl.vertexAttrib4f(2, 0, 0, 0, 1);  // the solid itself, neither moved nor scaled
-    solid.use({behind: 0.012 * this.size, ...stone});
+    solid.use({behind: this.behind, ...stone});
     for (const mesh of this.solids) mesh.draw();
     solid.use({behind: 0, ...metal});
     for (const mesh of this.bars.meshes) mesh.draw();
@@ -299,7 +309,7 @@ class Renderer {
     const {gl} = this;
     gl.enable(gl.CULL_FACE);  // who is below the ground looks through it
     for (const {normal, offset} of this.scenery.grounds) {
-      this.programs.ground.use({normal, behind: 0.012 * this.size, ...this.squareOn(normal, offset, 30 * this.size)});
+      this.programs.ground.use({normal, behind: this.behind, ...this.squareOn(normal, offset, 30 * this.size)});
       this.square.draw();
     }
     gl.disable(gl.CULL_FACE);
