@@ -31,7 +31,7 @@ std::string ChildProgram::complaint() const { return {}; }
 #include <cstring>
 #include <stdexcept>
 
-extern char** environ;
+extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX wants it, glibc does not need it
 
 namespace pictures {
 namespace {
@@ -60,7 +60,8 @@ int unnamedFile() {
 
 ChildProgram::ChildProgram(const std::vector<std::string>& words) : m_errors(unnamedFile()) {
   std::array<int, 2> pipe{};
-  if (pipe2(pipe.data(), O_CLOEXEC) != 0) throw std::runtime_error(std::strerror(errno));
+  if (::pipe(pipe.data()) != 0) throw std::runtime_error(std::strerror(errno));
+  for (const int end : pipe) fcntl(end, F_SETFD, FD_CLOEXEC);  // the child must not hold its own input open
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, pipe[0], STDIN_FILENO);

@@ -1,5 +1,6 @@
 #include "Progress.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <utility>
@@ -27,12 +28,12 @@ Progress::~Progress() {
 std::string Progress::timeLeft(double fraction, Clock::time_point now) const {
   if (!(fraction > 0)) return "";
   const double taken = std::chrono::duration<double>(now - m_start).count();
-  const int seconds = static_cast<int>(taken * (1 - fraction) / fraction + 0.5);
+  const long seconds = std::lround(taken * (1 - fraction) / fraction);
   char text[48];
   if (seconds < 60) {
-    std::snprintf(text, sizeof text, ", %d s left", seconds);
+    std::snprintf(text, sizeof text, ", %ld s left", seconds);
   } else {
-    std::snprintf(text, sizeof text, ", %d min %02d s left", seconds / 60, seconds % 60);
+    std::snprintf(text, sizeof text, ", %ld min %02ld s left", seconds / 60, seconds % 60);
   }
   return text;
 }

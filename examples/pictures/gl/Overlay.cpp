@@ -2,6 +2,7 @@
 
 #include "Embedded.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -55,15 +56,13 @@ void Overlay::bake(int pixels) {
   std::vector<stbtt_packedchar> packed(characterCount);
   stbtt_pack_context context;
   const int rowsBelow = side - fullTexels;
-  stbtt_PackBegin(&context, coverage.data() + static_cast<std::size_t>(fullTexels * side), side, rowsBelow, side, 1,
-                  nullptr);
+  stbtt_PackBegin(&context, coverage.data() + static_cast<std::size_t>(fullTexels) * static_cast<std::size_t>(side),
+                  side, rowsBelow, side, 1, nullptr);
   stbtt_PackSetOversampling(&context, 2, 1);
   stbtt_PackFontRange(&context, reinterpret_cast<const unsigned char*>(embedded::DejaVuSansSubset_ttf.data()), 0,
                       static_cast<float>(pixels), firstCharacter, characterCount, packed.data());
   stbtt_PackEnd(&context);
-  for (int row = 0; row < fullTexels; ++row) {
-    for (int column = 0; column < fullTexels; ++column) coverage[static_cast<std::size_t>(row * side + column)] = 255;
-  }
+  for (std::ptrdiff_t row = 0; row < fullTexels; ++row) std::fill_n(coverage.begin() + row * side, fullTexels, 255);
   m_glyphs.clear();
   const float scale = 1 / static_cast<float>(side);
   for (const stbtt_packedchar& glyph : packed) {

@@ -22,8 +22,9 @@ std::size_t VertexArray::addBuffer(GLuint location, const std::vector<int>& comp
   std::size_t offset = 0;
   for (const int components : componentsOfInputs) {
     glEnableVertexAttribArray(location);
-    glVertexAttribPointer(location, components, GL_FLOAT, GL_FALSE, all * static_cast<GLsizei>(sizeof(float)),
-                          reinterpret_cast<const void*>(offset * sizeof(float)));
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL takes offsets as pointers
+    const auto* const start = reinterpret_cast<const void*>(offset * sizeof(float));
+    glVertexAttribPointer(location, components, GL_FLOAT, GL_FALSE, all * static_cast<GLsizei>(sizeof(float)), start);
     glVertexAttribDivisor(location, step == Step::instance ? 1 : 0);
     offset += static_cast<std::size_t>(components);
     ++location;
