@@ -36,7 +36,10 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 #endif
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 // Water that comes and goes fast, so that in each step every effect has something to do.
@@ -107,4 +110,4 @@ TEST_P(NoAllocation, InTheStepAfterItsFirstTurns) {
 WETCLOTH_IN_EVERY_WORLD(NoAllocation);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test
