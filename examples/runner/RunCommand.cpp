@@ -19,15 +19,6 @@
 namespace runner {
 namespace {
 
-void scaleQuality(Scene& scene, Quality quality) {
-  const double factor = quality == Quality::draft       ? 0.5
-                        : quality == Quality::accurate  ? 2
-                        : quality == Quality::reference ? 4
-                                                        : 1;
-  scene.substeps = std::max(1, static_cast<int>(scene.substeps * factor));
-  scene.iterations = std::max(1, static_cast<int>(scene.iterations * factor));
-}
-
 double secondsOf(SceneWorld& world) {
   const auto start = std::chrono::steady_clock::now();
   world.step();
@@ -90,6 +81,15 @@ const std::vector<std::pair<std::string, Quality>>& qualityNames() {
                                                                   {"accurate", Quality::accurate},
                                                                   {"reference", Quality::reference}};
   return names;
+}
+
+void scaleQuality(Scene& scene, Quality quality) {
+  const double factor = quality == Quality::draft       ? 0.5
+                        : quality == Quality::accurate  ? 2
+                        : quality == Quality::reference ? 4
+                                                        : 1;
+  scene.substeps = std::max(1, static_cast<int>(scene.substeps * factor));
+  scene.iterations = std::max(1, static_cast<int>(scene.iterations * factor));
 }
 
 void runScene(const RunOptions& options, char** arguments) {

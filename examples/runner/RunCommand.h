@@ -9,6 +9,8 @@ namespace runner {
 
 enum class Quality { draft, realtime, accurate, reference };
 const std::vector<std::pair<std::string, Quality>>& qualityNames();
+/// Substeps and iterations, of both so many times as many.
+void scaleQuality(Scene& scene, Quality quality);
 
 struct RunOptions {
   std::string scene;

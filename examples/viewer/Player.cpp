@@ -1,0 +1,241 @@
+#include "Player.h"
+
+#include "MouseHand.h"
+#include "OrbitCamera.h"
+#include "Panel.h"
+#include "ViewLayout.h"
+#include "Window.h"
+
+#include "../pictures/PngFile.h"
+#include "../pictures/Renderer.h"
+#include "../runner/Errors.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+namespace viewer {
+namespace {
+
+using pictures::Colouring;
+
+std::string nameOf(Colouring colouring) {
+  switch (colouring) {
+    case Colouring::saturation: return "saturation";
+    case Colouring::stretch: return "stretch";
+    case Colouring::speed: return "speed";
+    case Colouring::fabric: break;
+  }
+  return "fabric";
+}
+
+constexpr const char* keyHelp =
+    "space  pause\n"
+    "N or .  one step\n"
+    "R  reset\n"
+    "S  slow motion\n"
+    "C  plain Bullet beside it\n"
+    "1 2 3 4  fabric, saturation, stretch, speed\n"
+    "P  picture      H  hide      Esc  quit\n"
+    "drag cloth: pull it   elsewhere: orbit\n"
+    "right drag: move   wheel: zoom";
+
+/// "wetcloth_0001.png", the first of them that is not there.
+std::string unusedPictureName() {
+  for (int number = 1;; ++number) {
+    char name[40];
+    std::snprintf(name, sizeof name, "wetcloth_%04d.png", number);
+    std::error_code ignored;
+    if (!std::filesystem::exists(name, ignored)) return name;
+  }
+}
+
+void drawLabel(const char* name, const char* text, double left, double top) {
+  ImGui::SetNextWindowPos(ImVec2(static_cast<float>(left), static_cast<float>(top)));
+  ImGui::SetNextWindowBgAlpha(0.5F);
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::TextUnformatted(text);
+  ImGui::End();
+}
+
+/// The window, the scene in it, and what keys and mouse do.
+class Player {
+ public:
+  Player(LiveScene& live, const PlayerOptions& options)
+      : m_live(live),
+        m_options(options),
+        m_window("wetcloth: " + live.scene().name, options.width, options.height),
+        m_renderer(live.scenery(), live.cloths()),
+        m_camera(fittedView()) {}
+
+  PlayerReport run();
+
+ private:
+  void takeKey(const std::string& key);
+  void moveTime();
+  void draw();
+  void drawOverScene();
+  void drawGrip();
+  void savePicture(const std::string& file);
+  void setCompared(bool compared);
+  pictures::View fittedView();
+  ViewLayout layout() const;
+
+  LiveScene& m_live;
+  PlayerOptions m_options;
+  Window m_window;
+  ViewSettings m_settings;
+  pictures::Renderer m_renderer;
+  OrbitCamera m_camera;
+  MouseHand m_hand;
+  Panel m_panel;
+  int m_frames = 0;
+  bool m_wantsPicture = false;
+  double m_lastTime = 0;
+};
+
+PlayerReport Player::run() {
+  const double start = m_lastTime = m_window.time();
+  while (!m_window.isClosed() && (!m_options.frames || m_frames < *m_options.frames)) {
+    m_window.beginPicture();
+    for (const std::string& key : m_window.keys()) takeKey(key);
+    m_hand.take(m_live, m_camera, layout());
+    moveTime();
+    draw();
+    if (m_wantsPicture) savePicture(unusedPictureName());
+    m_wantsPicture = false;
+    const bool isLast = m_window.isClosed() || (m_options.frames && m_frames + 1 >= *m_options.frames);
+    if (isLast && !m_options.screenshot.empty()) pictures::writePng(m_options.screenshot, m_window.read());
+    m_window.show();
+    ++m_frames;
+  }
+  const double seconds = m_window.time() - start;
+  return {m_frames, seconds > 0 ? m_frames / seconds : 0, m_hand.drags(), nameOf(m_settings.colouring),
+          m_settings.slowMotion};
+}
+
+void Player::takeKey(const std::string& key) {
+  m_settings.message.clear();
+  if (key == "space") m_live.setPaused(!m_live.isPaused());
+  if (key == "n" || key == ".") m_live.step();
+  if (key == "r") m_live.reset();
+  if (key == "s") m_settings.slowMotion = !m_settings.slowMotion;
+  if (key == "c") setCompared(!m_live.isCompared());
+  if (key == "1") m_settings.colouring = Colouring::fabric;
+  if (key == "2") m_settings.colouring = Colouring::saturation;
+  if (key == "3") m_settings.colouring = Colouring::stretch;
+  if (key == "4") m_settings.colouring = Colouring::speed;
+  if (key == "h") m_settings.panelShown = !m_settings.panelShown;
+  if (key == "p") m_wantsPicture = true;
+  if (key == "escape") m_window.close();
+}
+
+/// With a number of pictures, what they show must not depend on how fast they are drawn.
+void Player::moveTime() {
+  const double now = m_window.time();
+  if (m_frames > 0) m_panel.noteFrame(now - m_lastTime);
+  m_live.setTimeScale(m_settings.slowMotion ? slowMotionScale : 1);
+  if (!m_options.frames) {
+    m_live.advance(now - m_lastTime);
+  } else if (!m_live.isPaused()) {
+    m_live.step();
+  }
+  m_lastTime = now;
+}
+
+void Player::draw() {
+  const ViewLayout now = layout();
+  m_renderer.setColouring(m_settings.colouring);
+  if (now.isCompared) {
+    m_renderer.draw(m_live.frame(Side::plainBullet), m_camera.view(), now.areaOf(Side::plainBullet));
+  }
+  m_renderer.draw(m_live.frame(Side::wet), m_camera.view(), now.areaOf(Side::wet));
+  drawOverScene();
+  if (now.panelWidth > 0) {
+    const bool wasCompared = m_live.isCompared();
+    m_panel.draw(m_live, m_settings, static_cast<float>(now.sceneWidth()), static_cast<float>(now.panelWidth),
+                 static_cast<float>(now.height));
+    if (m_live.isCompared() != wasCompared) m_camera.zoom(m_live.isCompared() ? 1.5 : 1 / 1.5);
+  }
+  m_window.drawWidgets();
+}
+
+void Player::drawOverScene() {
+  const ViewLayout now = layout();
+  const double margin = 10;
+  if (now.isCompared) {
+    drawLabel("left", "plain Bullet", margin, margin);
+    drawLabel("right", "wet", now.leftOf(Side::wet) + margin, margin);
+  }
+  drawGrip();
+  if (!m_settings.message.empty()) drawLabel("message", m_settings.message.c_str(), margin, now.height / 2);
+  if (m_settings.panelShown) drawLabel("keys", keyHelp, margin, 5 * margin);
+}
+
+void Player::drawGrip() {
+  if (m_live.grip() == nullptr) return;
+  const ViewLayout now = layout();
+  const Side side = m_live.grippedSide();
+  const auto node = m_camera.project(m_live.grip()->node().m_x, now.aspect());
+  const auto goal = m_camera.project(m_live.grip()->goal(), now.aspect());
+  if (!node || !goal) return;
+  const auto place = [&](const std::array<double, 2>& point) {
+    const auto [x, y] = now.inWindow(point, side);
+    return ImVec2(static_cast<float>(x), static_cast<float>(y));
+  };
+  ImDrawList* const list = ImGui::GetBackgroundDrawList();
+  const ImU32 colour = IM_COL32(255, 170, 60, 255);
+  list->AddLine(place(*node), place(*goal), colour, 2);
+  list->AddCircleFilled(place(*node), 4, colour);
+  list->AddCircle(place(*goal), 7, colour, 0, 2);
+}
+
+void Player::savePicture(const std::string& file) {
+  try {
+    pictures::writePng(file, m_window.read());
+    m_settings.message = "picture in " + file;
+  } catch (const std::runtime_error& failed) {
+    m_settings.message = failed.what();
+  }
+}
+
+void Player::setCompared(bool compared) {
+  m_live.setCompared(compared);
+  m_camera.zoom(compared ? 1.5 : 1 / 1.5);
+}
+
+pictures::View Player::fittedView() {
+  return pictures::fitView(m_live.scenery(), {m_live.frame(Side::wet)}, static_cast<float>(layout().aspect()));
+}
+
+ViewLayout Player::layout() const {
+  ViewLayout layout;
+  layout.pixelsPerUnit = m_window.pixelsPerUnit();
+  layout.width = m_window.width() / layout.pixelsPerUnit;
+  layout.height = m_window.height() / layout.pixelsPerUnit;
+  layout.panelWidth = m_settings.panelShown ? Panel::usualWidth * m_window.textScale() : 0;
+  layout.isCompared = m_live.isCompared();
+  return layout;
+}
+
+}  // namespace
+
+void requirePlayer() {}
+
+PlayerReport play(LiveScene& live, const PlayerOptions& options) {
+  try {
+    return Player(live, options).run();
+  } catch (const runner::RunError&) {
+    throw;
+  } catch (const std::runtime_error& failed) {
+    throw runner::RunError("wetcloth: " + runner::onOneLine(failed.what()));
+  }
+}
+
+}  // namespace viewer
