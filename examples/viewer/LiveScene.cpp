@@ -35,6 +35,8 @@ void forEach(const runner::SceneWorld& world, Action action) {
   }
 }
 
+bool varies(const wetcloth::Exposure& exposure) { return exposure.isFunction() || exposure.isPerNode(); }
+
 void requireInteger(const char* field, int value, int most) {
   if (value < 1 || value > most) wetcloth::rejectValue(field, value, "1 to " + std::to_string(most));
 }
@@ -165,6 +167,12 @@ void LiveScene::buildPlain() {
 
 // --- effects --------------------------------------------------------------------------------------------------------
 
+bool LiveScene::isOn(const std::string& effect) const {
+  const auto& switches = m_effects.list();
+  return std::any_of(switches.begin(), switches.end(),
+                     [&](const auto& each) { return each.key == effect && each.isOn; });
+}
+
 void LiveScene::turnEffect(std::size_t index, bool on) {
   m_effects.turn(index, on, *m_wet);
   if (on) pullLevers();
@@ -225,6 +233,23 @@ void LiveScene::setExposure(double exposure) {
   static_cast<void>(Absorption(parameters));
   m_levers.exposure = exposure;
   pullLevers();
+}
+
+double LiveScene::exposure() const {
+  double value = m_levers.exposure.value_or(1);
+  const btVector3 anywhere(0, 0, 0);
+  forEach<Absorption>(*m_wet, [&](const Absorption& absorption, const WetCloth&) {
+    if (!varies(absorption.parameters().exposure)) value = absorption.parameters().exposure.at(0, anywhere, anywhere);
+  });
+  return value;
+}
+
+bool LiveScene::exposureVaries() const {
+  bool itDoes = false;
+  forEach<Absorption>(*m_wet, [&](const Absorption& absorption, const WetCloth&) {
+    itDoes = itDoes || varies(absorption.parameters().exposure);
+  });
+  return itDoes;
 }
 
 void LiveScene::setRainFlux(double flux) {

@@ -55,6 +55,8 @@ class LiveScene {
   // --- effects ----------------------------------------------------------------------------------------------
 
   const EffectSwitches& effects() const { return m_effects; }
+  /// By its key in a scene.
+  bool isOn(const std::string& effect) const;
   /// By its place in effects().list(). A refusal by the library stands there, too.
   void turnEffect(std::size_t index, bool on);
   /// Per step of the scene: all of the library's part, its commits included [us].
@@ -73,9 +75,10 @@ class LiveScene {
 
   /// To water, for the effect absorption, [0, 1].
   void setExposure(double exposure);
-  double exposure() const { return m_levers.exposure.value_or(1); }
-  /// Whether the exposure is the scene's.
-  bool exposureIsOfScene() const { return !m_levers.exposure; }
+  /// What the effect absorption has now; where it varies, or where there is none, 1.
+  double exposure() const;
+  /// Whether the exposure is the scene's, which differs from place to place.
+  bool exposureVaries() const;
 
   /// For the effect rain [kg/m^2/s], >= 0.
   void setRainFlux(double flux);

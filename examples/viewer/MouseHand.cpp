@@ -23,9 +23,12 @@ void MouseHand::take(LiveScene& live, OrbitCamera& camera, const ViewLayout& lay
     if (m_task == Task::drag) live.release();
     m_task = Task::nothing;
   }
-  if (m_task == Task::nothing && !io.WantCaptureMouse) begin(live, camera, layout);
   if (!io.WantCaptureMouse && io.MouseWheel != 0) {
     camera.zoom(std::pow(zoomPerNotch, static_cast<double>(io.MouseWheel)));
+  }
+  if (m_task == Task::nothing) {  // what the mouse did before the button went down is no drag
+    if (!io.WantCaptureMouse) begin(live, camera, layout);
+    return;
   }
   const double right = static_cast<double>(io.MouseDelta.x) / layout.height;
   const double down = static_cast<double>(io.MouseDelta.y) / layout.height;

@@ -1,5 +1,7 @@
 #include "Panel.h"
 
+#include "PlainVector.h"
+
 #include <imgui.h>
 
 #include <algorithm>
@@ -16,6 +18,8 @@ namespace {
 
 const ImVec4 warning(1.0F, 0.65F, 0.35F, 1);
 const ImVec4 faint(0.62F, 0.65F, 0.70F, 1);
+
+constexpr double secondsPerHour = 3600;
 
 template <class... Values>
 std::string text(const char* format, Values... values) {
@@ -58,7 +62,7 @@ void plot(const char* name, const History& history, float low, float high, const
   History copy = history;  // ImGui wants something that it could change
   ImGui::PushItemWidth(-1);
   ImGui::PlotLines((std::string("##") + name).c_str(), valueAt, &copy, static_cast<int>(history.size()), 0, nullptr,
-                   low, high, ImVec2(0, 3 * ImGui::GetTextLineHeight()));
+                   low, high, ImVec2(0, 2.2F * ImGui::GetTextLineHeight()));
   ImGui::PopItemWidth();
 }
 
@@ -88,8 +92,8 @@ void Panel::draw(LiveScene& live, ViewSettings& settings, float left, float widt
   drawTime(live, settings);
   drawColourings(settings);
   if (ImGui::CollapsingHeader("Effects", ImGuiTreeNodeFlags_DefaultOpen)) drawEffects(live);
-  if (ImGui::CollapsingHeader("Levers", ImGuiTreeNodeFlags_DefaultOpen)) drawLevers(live);
   if (ImGui::CollapsingHeader("Plots", ImGuiTreeNodeFlags_DefaultOpen)) drawPlots(live);
+  if (ImGui::CollapsingHeader("Levers", ImGuiTreeNodeFlags_DefaultOpen)) drawLevers(live);
   ImGui::End();
 }
 
@@ -130,7 +134,14 @@ void Panel::drawColourings(ViewSettings& settings) {
 }
 
 void Panel::drawEffects(LiveScene& live) {
-  for (std::size_t i = 0; i < live.effects().list().size(); ++i) drawEffect(live, i);
+  const auto& effects = live.effects().list();
+  const auto drawThose = [&](bool inScene) {
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+      if (effects[i].isInScene == inScene) drawEffect(live, i);
+    }
+  };
+  drawThose(true);
+  if (ImGui::TreeNodeEx("more than the scene names", ImGuiTreeNodeFlags_NoTreePushOnOpen)) drawThose(false);
   ImGui::Separator();
   drawCosts(live);
 }
@@ -138,10 +149,7 @@ void Panel::drawEffects(LiveScene& live) {
 void Panel::drawEffect(LiveScene& live, std::size_t index) {
   const EffectSwitches::Switch& effect = live.effects().list()[index];
   bool on = effect.isOn;
-  if (!effect.isInScene) ImGui::PushStyleColor(ImGuiCol_Text, faint);
   const bool turned = ImGui::Checkbox(words(effect.key).c_str(), &on);
-  if (!effect.isInScene) ImGui::PopStyleColor();
-  if (!effect.isInScene && ImGui::IsItemHovered()) ImGui::SetTooltip("not in the scene; with the library's defaults");
   if (effect.isOn) textAtRight(microseconds(live.effects().microseconds(index)));
   if (turned) live.turnEffect(index, on);
   if (effect.waitsForReset) wrapped(warning, "from the next reset on (R)");
@@ -163,42 +171,53 @@ void Panel::drawCosts(const LiveScene& live) {
 
 void Panel::drawLevers(LiveScene& live) {
   ImGui::PushItemWidth(-0.34F * ImGui::GetWindowWidth());
-  try {
-    drawWeather(live);
-    drawFabric(live);
-    drawQuality(live);
-  } catch (const std::invalid_argument& refused) {
-    m_refusal = refused.what();
-  }
+  drawWeather(live);
+  drawFabric(live);
+  drawQuality(live);
   ImGui::PopItemWidth();
   if (!m_refusal.empty()) wrapped(warning, m_refusal);
 }
 
+/// A lever of an effect that is off is there, but does not move.
 void Panel::drawWeather(LiveScene& live) {
-  const auto change = [this](const auto& set) {
-    m_refusal.clear();
-    set();
+  const auto lever = [&](const char* effect, const auto& draw) {
+    ImGui::BeginDisabled(!live.isOn(effect));
+    try {
+      if (draw()) m_refusal.clear();
+    } catch (const std::invalid_argument& refused) {
+      m_refusal = refused.what();
+    }
+    ImGui::EndDisabled();
   };
-  const btVector3 wind = live.wind();
-  float velocity[3] = {static_cast<float>(wind.x()), static_cast<float>(wind.y()), static_cast<float>(wind.z())};
-  if (ImGui::SliderFloat3(live.windVaries() ? "wind, gusty" : "wind [m/s]", velocity, -15, 15, "%.1f")) {
-    change([&] { live.setWind(btVector3(btScalar(velocity[0]), btScalar(velocity[1]), btScalar(velocity[2]))); });
-  }
+  lever("wind", [&] { return drawWind(live); });
+  lever("absorption", [&] { return drawExposure(live); });
+  lever("rain", [&] { return drawRain(live); });
+}
+
+bool Panel::drawWind(LiveScene& live) {
+  std::array<float, 3> velocity = plainVector(live.wind());
+  const char* const name = live.windVaries() ? "wind, gusty" : "wind [m/s]";
+  if (!ImGui::SliderFloat3(name, velocity.data(), -15, 15, "%.1f")) return false;
+  live.setWind(bulletVector(velocity));
+  return true;
+}
+
+bool Panel::drawExposure(LiveScene& live) {
   float exposure = static_cast<float>(live.exposure());
-  if (ImGui::SliderFloat("exposure", &exposure, 0, 1, "%.2f")) {
-    change([&] { live.setExposure(static_cast<double>(exposure)); });
-  }
-  float flux = static_cast<float>(3600 * live.rainFlux());
-  if (ImGui::SliderFloat("rain [mm/h]", &flux, 0, 1000, "%.0f", ImGuiSliderFlags_Logarithmic)) {
-    change([&] { live.setRainFlux(static_cast<double>(flux) / 3600); });
-  }
-  const btVector3 rain = live.rainDirection();
-  float direction[3] = {static_cast<float>(rain.x()), static_cast<float>(rain.y()), static_cast<float>(rain.z())};
-  if (ImGui::SliderFloat3("rain falls to", direction, -1, 1, "%.2f")) {
-    change([&] {
-      live.setRainDirection(btVector3(btScalar(direction[0]), btScalar(direction[1]), btScalar(direction[2])));
-    });
-  }
+  const char* const name = live.exposureVaries() ? "exposed, in parts" : "exposure";
+  if (!ImGui::SliderFloat(name, &exposure, 0, 1, "%.2f")) return false;
+  live.setExposure(static_cast<double>(exposure));
+  return true;
+}
+
+bool Panel::drawRain(LiveScene& live) {
+  float flux = static_cast<float>(secondsPerHour * live.rainFlux());
+  const bool harder = ImGui::SliderFloat("rain [mm/h]", &flux, 0, 1000, "%.0f", ImGuiSliderFlags_Logarithmic);
+  if (harder) live.setRainFlux(static_cast<double>(flux) / secondsPerHour);
+  std::array<float, 3> direction = plainVector(live.rainDirection());
+  const bool turned = ImGui::SliderFloat3("rain falls to", direction.data(), -1, 1, "%.2f");
+  if (turned) live.setRainDirection(bulletVector(direction));
+  return harder || turned;
 }
 
 void Panel::drawFabric(LiveScene& live) {

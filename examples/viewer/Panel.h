@@ -38,6 +38,9 @@ class Panel {
   void drawCosts(const LiveScene& live);
   void drawLevers(LiveScene& live);
   void drawWeather(LiveScene& live);
+  bool drawWind(LiveScene& live);  // whether it moved, as the next two
+  bool drawExposure(LiveScene& live);
+  bool drawRain(LiveScene& live);
   void drawFabric(LiveScene& live);
   void drawQuality(LiveScene& live);
   void drawPlots(const LiveScene& live);

@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 
 namespace viewer {
@@ -33,16 +34,14 @@ std::string nameOf(Colouring colouring) {
   return "fabric";
 }
 
+constexpr double comparisonZoom = 1.5;
+constexpr double roomToMove = 1.2;  // around what is there at first
+
 constexpr const char* keyHelp =
-    "space  pause\n"
-    "N or .  one step\n"
-    "R  reset\n"
-    "S  slow motion\n"
-    "C  plain Bullet beside it\n"
-    "1 2 3 4  fabric, saturation, stretch, speed\n"
-    "P  picture      H  hide      Esc  quit\n"
-    "drag cloth: pull it   elsewhere: orbit\n"
-    "right drag: move   wheel: zoom";
+    "space pause    N or . one step    R reset    S slow motion    C compare with plain Bullet    H hide    P picture  "
+    "  "
+    "Esc quit    1 fabric    2 saturation    3 stretch    4 speed    drag the cloth to pull it    drag elsewhere to "
+    "orbit    right drag to move    wheel to zoom";
 
 /// "wetcloth_0001.png", the first of them that is not there.
 std::string unusedPictureName() {
@@ -54,13 +53,26 @@ std::string unusedPictureName() {
   }
 }
 
-void drawLabel(const char* name, const char* text, double left, double top) {
+constexpr ImGuiWindowFlags labelFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                        ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
+                                        ImGuiWindowFlags_NoFocusOnAppearing;
+
+void drawLabel(const char* name, const std::string& text, double left, double top) {
   ImGui::SetNextWindowPos(ImVec2(static_cast<float>(left), static_cast<float>(top)));
-  ImGui::SetNextWindowBgAlpha(0.5F);
-  ImGui::Begin(name, nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
-  ImGui::TextUnformatted(text);
+  ImGui::SetNextWindowBgAlpha(0.6F);
+  ImGui::Begin(name, nullptr, labelFlags);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::End();
+}
+
+/// Along the lower edge of the scene.
+void drawHelp(const ViewLayout& layout) {
+  const float width = static_cast<float>(layout.sceneWidth());
+  ImGui::SetNextWindowPos(ImVec2(0, static_cast<float>(layout.height)), ImGuiCond_Always, ImVec2(0, 1));
+  ImGui::SetNextWindowSize(ImVec2(width, 0));
+  ImGui::SetNextWindowBgAlpha(0.6F);
+  ImGui::Begin("keys", nullptr, labelFlags & ~ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::TextWrapped("%s", keyHelp);
   ImGui::End();
 }
 
@@ -72,7 +84,10 @@ class Player {
         m_options(options),
         m_window("wetcloth: " + live.scene().name, options.width, options.height),
         m_renderer(live.scenery(), live.cloths()),
-        m_camera(fittedView()) {}
+        m_camera(fittedView()),
+        m_fitsComparison(live.isCompared()) {
+    m_camera.zoom(roomToMove);
+  }
 
   PlayerReport run();
 
@@ -83,7 +98,7 @@ class Player {
   void drawOverScene();
   void drawGrip();
   void savePicture(const std::string& file);
-  void setCompared(bool compared);
+  void fitComparison();
   pictures::View fittedView();
   ViewLayout layout() const;
 
@@ -93,6 +108,7 @@ class Player {
   ViewSettings m_settings;
   pictures::Renderer m_renderer;
   OrbitCamera m_camera;
+  bool m_fitsComparison;
   MouseHand m_hand;
   Panel m_panel;
   int m_frames = 0;
@@ -105,6 +121,7 @@ PlayerReport Player::run() {
   while (!m_window.isClosed() && (!m_options.frames || m_frames < *m_options.frames)) {
     m_window.beginPicture();
     for (const std::string& key : m_window.keys()) takeKey(key);
+    fitComparison();
     m_hand.take(m_live, m_camera, layout());
     moveTime();
     draw();
@@ -126,7 +143,7 @@ void Player::takeKey(const std::string& key) {
   if (key == "n" || key == ".") m_live.step();
   if (key == "r") m_live.reset();
   if (key == "s") m_settings.slowMotion = !m_settings.slowMotion;
-  if (key == "c") setCompared(!m_live.isCompared());
+  if (key == "c") m_live.setCompared(!m_live.isCompared());
   if (key == "1") m_settings.colouring = Colouring::fabric;
   if (key == "2") m_settings.colouring = Colouring::saturation;
   if (key == "3") m_settings.colouring = Colouring::stretch;
@@ -158,10 +175,8 @@ void Player::draw() {
   m_renderer.draw(m_live.frame(Side::wet), m_camera.view(), now.areaOf(Side::wet));
   drawOverScene();
   if (now.panelWidth > 0) {
-    const bool wasCompared = m_live.isCompared();
     m_panel.draw(m_live, m_settings, static_cast<float>(now.sceneWidth()), static_cast<float>(now.panelWidth),
                  static_cast<float>(now.height));
-    if (m_live.isCompared() != wasCompared) m_camera.zoom(m_live.isCompared() ? 1.5 : 1 / 1.5);
   }
   m_window.drawWidgets();
 }
@@ -174,8 +189,8 @@ void Player::drawOverScene() {
     drawLabel("right", "wet", now.leftOf(Side::wet) + margin, margin);
   }
   drawGrip();
-  if (!m_settings.message.empty()) drawLabel("message", m_settings.message.c_str(), margin, now.height / 2);
-  if (m_settings.panelShown) drawLabel("keys", keyHelp, margin, 5 * margin);
+  if (!m_settings.message.empty()) drawLabel("message", m_settings.message, margin, 5 * margin);
+  if (m_settings.panelShown) drawHelp(now);
 }
 
 void Player::drawGrip() {
@@ -205,9 +220,11 @@ void Player::savePicture(const std::string& file) {
   }
 }
 
-void Player::setCompared(bool compared) {
-  m_live.setCompared(compared);
-  m_camera.zoom(compared ? 1.5 : 1 / 1.5);
+/// Half as wide a picture has to be of the same things.
+void Player::fitComparison() {
+  if (m_live.isCompared() == m_fitsComparison) return;
+  m_fitsComparison = m_live.isCompared();
+  m_camera.zoom(m_fitsComparison ? comparisonZoom : 1 / comparisonZoom);
 }
 
 pictures::View Player::fittedView() {
@@ -218,7 +235,7 @@ ViewLayout Player::layout() const {
   ViewLayout layout;
   layout.pixelsPerUnit = m_window.pixelsPerUnit();
   layout.width = m_window.width() / layout.pixelsPerUnit;
-  layout.height = m_window.height() / layout.pixelsPerUnit;
+  layout.height = std::max(1, m_window.height()) / layout.pixelsPerUnit;  // a hidden window has none
   layout.panelWidth = m_settings.panelShown ? Panel::usualWidth * m_window.textScale() : 0;
   layout.isCompared = m_live.isCompared();
   return layout;

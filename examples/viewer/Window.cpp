@@ -1,5 +1,6 @@
 #include "Window.h"
 
+#include "../pictures/Font.h"
 #include "../runner/Errors.h"
 
 #include <epoxy/gl.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string_view>
 
 namespace viewer {
 namespace {
@@ -44,14 +46,28 @@ std::string nameOf(int key, int scancode) {
   return name != nullptr ? name : "";
 }
 
+constexpr float textHeight = 15;  // in the window's units, at usual size
+
+void chooseFont(float scale) {
+  const std::string_view font = pictures::fontFile();
+  ImFontConfig config;
+  config.FontDataOwnedByAtlas = false;
+  // ImGui wants to be able to change it, and does not.
+  ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<char*>(font.data()), static_cast<int>(font.size()),
+                                             textHeight * scale, &config);
+}
+
 void style(float scale) {
+  chooseFont(scale);
   ImGui::StyleColorsDark();
   ImGuiStyle& look = ImGui::GetStyle();
   look.WindowRounding = 0;
   look.FrameRounding = 3;
   look.GrabRounding = 3;
   look.WindowBorderSize = 0;
-  look.ItemSpacing = ImVec2(8, 5);
+  look.ItemSpacing = ImVec2(8, 4);
+  look.FramePadding = ImVec2(5, 2);
+  look.WindowPadding = ImVec2(10, 8);
   look.Colors[ImGuiCol_WindowBg] = ImVec4(0.11F, 0.12F, 0.14F, 1);
   look.Colors[ImGuiCol_PlotLines] = ImVec4(0.45F, 0.75F, 1.0F, 1);
   look.ScaleAllSizes(scale);
