@@ -33,18 +33,34 @@ OrbitCamera::OrbitCamera(const pictures::View& view)
   m_height = std::clamp(std::asin(std::clamp(sine, -1.0, 1.0)), -steepest, steepest);
 }
 
+void OrbitCamera::stayAbove(double height) {
+  m_floor = height;
+  leaveFloor();
+}
+
+void OrbitCamera::leaveFloor() {
+  if (!m_floor) return;
+  const double sine = (*m_floor + nearest - static_cast<double>(m_target.dot(m_up))) / m_distance;
+  if (sine < 0) m_height = std::max(m_height, std::asin(std::max(sine, -1.0)));
+}
+
 void OrbitCamera::orbit(double eastwards, double upwards) {
   m_heading += eastwards;
   m_height = std::clamp(m_height + upwards, -steepest, steepest);
+  leaveFloor();
 }
 
 void OrbitCamera::pan(double rightwards, double upwards) {
   const double height = 2 * halfHeight() * m_distance;
   const Axes at = axes();
   m_target += at.right * btScalar(rightwards * height) + at.up * btScalar(upwards * height);
+  leaveFloor();
 }
 
-void OrbitCamera::zoom(double factor) { m_distance = std::clamp(m_distance * factor, nearest, farthest); }
+void OrbitCamera::zoom(double factor) {
+  m_distance = std::clamp(m_distance * factor, nearest, farthest);
+  leaveFloor();
+}
 
 OrbitCamera::Axes OrbitCamera::axes() const {
   const btVector3 level = m_north * btScalar(std::cos(m_heading)) + m_east * btScalar(std::sin(m_heading));

@@ -14,6 +14,9 @@ class OrbitCamera {
  public:
   explicit OrbitCamera(const pictures::View& view);
 
+  /// The eye stays above it, unless the target is below. @param height of the floor along the view's up [m]
+  void stayAbove(double height);
+
   /// Round the target [rad]: eastwards, and higher; never over the top.
   void orbit(double eastwards, double upwards);
   /// With the target, across the view [heights of the picture].
@@ -36,6 +39,7 @@ class OrbitCamera {
   };
   Axes axes() const;
   btVector3 eye() const;
+  void leaveFloor();
   double halfHeight() const;  // of the picture at depth 1
 
   btVector3 m_up;
@@ -46,6 +50,7 @@ class OrbitCamera {
   double m_heading = 0;  // of the eye seen from the target, from north to east [rad]
   double m_height = 0;   // of the eye above the horizon [rad]
   double m_fieldOfView;  // vertical [rad]
+  std::optional<double> m_floor;
 };
 
 }  // namespace viewer

@@ -3,6 +3,7 @@
 #include "MouseHand.h"
 #include "OrbitCamera.h"
 #include "Panel.h"
+#include "PlainVector.h"
 #include "ViewLayout.h"
 #include "Window.h"
 
@@ -13,11 +14,15 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace viewer {
 namespace {
@@ -76,6 +81,31 @@ void drawHelp(const ViewLayout& layout) {
   ImGui::End();
 }
 
+/// Height of the highest level ground.
+std::optional<double> floorOf(const pictures::Scenery& scenery) {
+  std::optional<double> floor;
+  for (const pictures::Ground& ground : scenery.grounds) {
+    const double cosine = static_cast<double>(bulletVector(ground.normal).dot(bulletVector(scenery.up)));
+    const double height = static_cast<double>(ground.offset);
+    if (cosine > 0.99 && (!floor || height > *floor)) floor = height;
+  }
+  return floor;
+}
+
+/// The first state, and where the scene will take cloths by their pins.
+std::vector<pictures::Frame> framesToFit(const runner::Scene& scene, const pictures::Frame& first) {
+  std::vector<pictures::Frame> frames{first};
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    if (!scene.cloths[i].motion) continue;
+    for (const btVector3& offset : scene.cloths[i].motion->offsets) {
+      pictures::Frame moved = first;
+      for (pictures::Vector3& place : moved.cloths[i].positions) place = plainVector(bulletVector(place) + offset);
+      frames.push_back(std::move(moved));
+    }
+  }
+  return frames;
+}
+
 /// The window, the scene in it, and what keys and mouse do.
 class Player {
  public:
@@ -87,6 +117,7 @@ class Player {
         m_camera(fittedView()),
         m_fitsComparison(live.isCompared()) {
     m_camera.zoom(roomToMove);
+    if (const auto floor = floorOf(live.scenery())) m_camera.stayAbove(*floor);
   }
 
   PlayerReport run();
@@ -228,7 +259,8 @@ void Player::fitComparison() {
 }
 
 pictures::View Player::fittedView() {
-  return pictures::fitView(m_live.scenery(), {m_live.frame(Side::wet)}, static_cast<float>(layout().aspect()));
+  const auto aspect = static_cast<float>(layout().aspect());
+  return pictures::fitView(m_live.scenery(), framesToFit(m_live.scene(), m_live.frame(Side::wet)), aspect);
 }
 
 ViewLayout Player::layout() const {
