@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <vector>
 
@@ -82,68 +83,55 @@ class OffscreenContext::Display {
   EGLContext m_context = EGL_NO_CONTEXT;
 };
 
-/// Drawn into with several samples for each pixel, and read from another with one.
 class OffscreenContext::Framebuffer {
  public:
   Framebuffer(int width, int height) : m_width(width), m_height(height) {
     GLint largest = 0;
-    GLint samples = 0;
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
-    glGetIntegerv(GL_MAX_SAMPLES, &samples);
     if (std::max(width, height) > largest) {
       throw std::runtime_error("OpenGL draws at most " + std::to_string(largest) + " pixels here in width and height");
     }
-    samples = std::min(samples, 4);
-    glGenFramebuffers(2, m_framebuffers.data());
-    glGenRenderbuffers(3, m_renderbuffers.data());
-    attach(resolved, 2, GL_COLOR_ATTACHMENT0, GL_RGBA8, 0);
-    attach(drawn, 0, GL_COLOR_ATTACHMENT0, GL_RGBA8, samples);
-    attach(drawn, 1, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, samples);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-      throw std::runtime_error("OpenGL cannot make a picture of " + std::to_string(width) + " x " +
-                               std::to_string(height) + " pixels");
-    }
+    glGenFramebuffers(1, &m_framebuffer);
+    glGenRenderbuffers(1, &m_colour);
+    glBindRenderbuffer(GL_RENDERBUFFER, m_colour);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    glBindFramebuffer(GL_FRAMEBUFFER, m_framebuffer);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, m_colour);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+    release();
+    throw std::runtime_error("OpenGL cannot make a picture of " + std::to_string(width) + " x " +
+                             std::to_string(height) + " pixels");
   }
-  ~Framebuffer() {
-    glDeleteFramebuffers(2, m_framebuffers.data());
-    glDeleteRenderbuffers(3, m_renderbuffers.data());
-  }
+  ~Framebuffer() { release(); }
   Framebuffer(const Framebuffer&) = delete;
   Framebuffer& operator=(const Framebuffer&) = delete;
 
+  /// OpenGL's rows begin at the bottom.
   Image read() {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, m_framebuffers[drawn]);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, m_framebuffers[resolved]);
-    glBlitFramebuffer(0, 0, m_width, m_height, 0, 0, m_width, m_height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, m_framebuffers[resolved]);
-    Image upsideDown(m_width, m_height);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, m_width, m_height, GL_RGB, GL_UNSIGNED_BYTE, upsideDown.rgb.data());
-    glBindFramebuffer(GL_FRAMEBUFFER, m_framebuffers[drawn]);
-    const std::size_t row = 3 * static_cast<std::size_t>(m_width);
+    const std::size_t row = static_cast<std::size_t>(m_width);
+    m_pixels.resize(4 * row * static_cast<std::size_t>(m_height));
+    glBindFramebuffer(GL_FRAMEBUFFER, m_framebuffer);
+    glReadPixels(0, 0, m_width, m_height, GL_RGBA, GL_UNSIGNED_BYTE, m_pixels.data());
     Image image(m_width, m_height);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(m_height); ++i) {
-      const std::size_t from = (static_cast<std::size_t>(m_height) - 1 - i) * row;
-      std::copy_n(upsideDown.rgb.data() + from, row, image.rgb.data() + i * row);
+    std::uint8_t* to = image.rgb.data();
+    for (int y = m_height - 1; y >= 0; --y) {
+      const std::uint8_t* from = m_pixels.data() + 4 * row * static_cast<std::size_t>(y);
+      for (std::size_t x = 0; x < row; ++x, from += 4, to += 3) std::copy_n(from, 3, to);
     }
     return image;
   }
 
  private:
-  static constexpr std::size_t drawn = 0;
-  static constexpr std::size_t resolved = 1;
-
-  void attach(std::size_t framebuffer, std::size_t renderbuffer, GLenum attachment, GLenum format, int samples) {
-    glBindRenderbuffer(GL_RENDERBUFFER, m_renderbuffers[renderbuffer]);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, m_width, m_height);
-    glBindFramebuffer(GL_FRAMEBUFFER, m_framebuffers[framebuffer]);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, m_renderbuffers[renderbuffer]);
+  void release() {
+    glDeleteFramebuffers(1, &m_framebuffer);
+    glDeleteRenderbuffers(1, &m_colour);
   }
 
   const int m_width;
   const int m_height;
-  std::array<GLuint, 2> m_framebuffers{};
-  std::array<GLuint, 3> m_renderbuffers{};
+  GLuint m_framebuffer = 0;
+  GLuint m_colour = 0;
+  std::vector<std::uint8_t> m_pixels;  // with the fourth byte, which drivers copy without a change of format
 };
 
 OffscreenContext::OffscreenContext(int width, int height)

@@ -8,6 +8,7 @@
 #include "gl/ClothMesh.h"
 #include "gl/ColourBar.h"
 #include "gl/Overlay.h"
+#include "gl/PictureBuffer.h"
 #include "gl/PictureUniforms.h"
 #include "gl/ShaderProgram.h"
 #include "gl/ShadowMap.h"
@@ -90,15 +91,17 @@ class Hanging {
 
   void update(const ClothState& state, const ColourScale& scale, const std::vector<Ground>& grounds) {
     m_mesh.update(state, scale.placesOf(state));
-    if (m_rods == nullptr) m_rods = std::make_unique<Rods>(m_shape, state);
+    if (m_findRods == nullptr) m_findRods = std::make_unique<Rods>(m_shape, state);
     m_bars.clear();
-    for (const Rod& rod : m_rods->at(state, grounds)) {
+    m_rods = m_findRods->at(state, grounds);
+    for (const Rod& rod : m_rods) {
       m_bars.push_back(std::make_unique<SolidMesh>(roundBar(rod.from, rod.to, rod.radius)));
     }
   }
 
   const ClothShape& shape() const { return m_shape; }
   float side() const { return m_side; }
+  const std::vector<Rod>& rods() const { return m_rods; }
   void drawCloth() const { m_mesh.draw(); }
   void drawBars() const {
     for (const auto& bar : m_bars) bar->draw();
@@ -108,7 +111,8 @@ class Hanging {
   const ClothShape m_shape;
   ClothMesh m_mesh;
   const float m_side;
-  std::unique_ptr<Rods> m_rods;  // found in the first state
+  std::unique_ptr<Rods> m_findRods;  // made in the first state
+  std::vector<Rod> m_rods;
   std::vector<std::unique_ptr<SolidMesh>> m_bars;
 };
 
@@ -131,9 +135,12 @@ class Renderer::Parts {
   void makeColourMap();
   void makeSquare();
 
-  void castShadows(const Frame& frame);
+  void castShadows(const std::vector<Vector3>& points);
   void setPicture(const Frame& frame, const View& view, const Area& area);
-  void beginArea(const Area& area) const;
+  void setState() const;
+  PictureBuffer::Part partWithEdges(const std::vector<Vector3>& points, const Area& area) const;
+  void drawGround(const ShaderProgram& program, const Ground& ground, const ShadowMap::Footprint& where,
+                  float behind) const;
   void drawGrounds() const;
   void drawSolids() const;
   void drawDrops(const Frame& frame);
@@ -148,12 +155,15 @@ class Renderer::Parts {
   VertexArray m_square;
   VertexArray m_nothing;
   ShadowMap m_shadowMap;
-  ShaderProgram m_caster, m_cloth, m_measured, m_solid, m_backdrop, m_ground, m_water;
+  ShaderProgram m_caster, m_cloth, m_measured, m_solid, m_backdrop, m_shadedGround, m_ground, m_water;
+  PictureBuffer m_buffer;
   Overlay m_overlay;
   GLuint m_pictureBuffer = 0;
   GLuint m_colourMap = 0;
-  Extent m_extent;   // of the frame
-  float m_size = 0;  // of all there is to see, from the first frame on [m]
+  Extent m_extent;  // of the frame
+  PictureUniforms m_uniforms;
+  float m_behind = 0;  // what cloth may lie on is pushed back by this [depth]
+  float m_size = 0;    // of all there is to see, from the first frame on [m]
 };
 
 Renderer::Parts::Parts(const Scenery& scenery, const std::vector<ClothShape>& cloths)
@@ -171,8 +181,12 @@ Renderer::Parts::Parts(const Scenery& scenery, const std::vector<ClothShape>& cl
               {embedded::common_glsl, embedded::light_glsl, embedded::solid_frag_glsl}),
       m_backdrop({embedded::common_glsl, embedded::backdrop_vert_glsl},
                  {embedded::common_glsl, embedded::light_glsl, embedded::backdrop_glsl, embedded::backdrop_frag_glsl}),
+      m_shadedGround({embedded::common_glsl, embedded::ground_vert_glsl},
+                     {embedded::common_glsl, embedded::light_glsl, embedded::backdrop_glsl,
+                      embedded::ground_shaded_glsl, embedded::ground_frag_glsl}),
       m_ground({embedded::common_glsl, embedded::ground_vert_glsl},
-               {embedded::common_glsl, embedded::light_glsl, embedded::backdrop_glsl, embedded::ground_frag_glsl}),
+               {embedded::common_glsl, embedded::light_glsl, embedded::backdrop_glsl, embedded::ground_open_glsl,
+                embedded::ground_frag_glsl}),
       m_water({embedded::common_glsl, embedded::ground_vert_glsl},
               {embedded::common_glsl, embedded::light_glsl, embedded::water_frag_glsl}) {
   for (const ClothShape& cloth : cloths) m_hangings.push_back(std::make_unique<Hanging>(cloth));
@@ -191,7 +205,8 @@ void Renderer::Parts::makePictureBlock() {
   glGenBuffers(1, &m_pictureBuffer);
   glBindBuffer(GL_UNIFORM_BUFFER, m_pictureBuffer);
   glBufferData(GL_UNIFORM_BUFFER, sizeof(PictureUniforms), nullptr, GL_DYNAMIC_DRAW);
-  for (const ShaderProgram* program : {&m_cloth, &m_measured, &m_solid, &m_backdrop, &m_ground, &m_water}) {
+  for (const ShaderProgram* program :
+       {&m_cloth, &m_measured, &m_solid, &m_backdrop, &m_shadedGround, &m_ground, &m_water}) {
     program->bindBlock("Picture", pictureBlock);
     program->use();
     program->set("shadowMap", static_cast<int>(shadowUnit));
@@ -224,8 +239,8 @@ void Renderer::Parts::makeSquare() {
   m_square.setTriangles({{0, 1, 2}, {0, 2, 3}});
 }
 
-void Renderer::Parts::castShadows(const Frame& frame) {
-  m_shadowMap.fit(pointsOf(m_scenery, frame), m_towardsLamp);
+void Renderer::Parts::castShadows(const std::vector<Vector3>& points) {
+  m_shadowMap.fit(points, m_towardsLamp);
   m_shadowMap.begin();
   m_caster.use();
   m_caster.set("clipFromCaster", m_shadowMap.clipFromWorld());
@@ -238,25 +253,22 @@ void Renderer::Parts::castShadows(const Frame& frame) {
 }
 
 void Renderer::Parts::setPicture(const Frame& frame, const View& view, const Area& area) {
-  PictureUniforms uniforms;
+  PictureUniforms& uniforms = m_uniforms;
   look(uniforms, view, static_cast<float>(area.width) / static_cast<float>(area.height), m_extent);
   uniforms.shadowFromWorld = m_shadowMap.mapFromWorld();
   uniforms.towardsLamp = {m_towardsLamp[0], m_towardsLamp[1], m_towardsLamp[2], 0};
   uniforms.up = {m_scenery.up[0], m_scenery.up[1], m_scenery.up[2], m_size};
   uniforms.forward[3] = static_cast<float>(frame.time);
-  uniforms.viewport = {static_cast<float>(area.x), static_cast<float>(area.y), static_cast<float>(area.width),
-                       static_cast<float>(area.height)};
   uniforms.shadow = {m_shadowMap.width() / ShadowMap::texels, shadowSoftness * m_size / m_shadowMap.width(), 0, 0};
   glBindBuffer(GL_UNIFORM_BUFFER, m_pictureBuffer);
   glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof uniforms, &uniforms);
   glBindBufferBase(GL_UNIFORM_BUFFER, pictureBlock, m_pictureBuffer);
+  m_behind = depthStep(uniforms, m_extent, 0.012F * m_size);
 }
 
 /// The shaders give sRGB themselves, so that any framebuffer will do.
-void Renderer::Parts::beginArea(const Area& area) const {
-  glViewport(area.x, area.y, area.width, area.height);
-  glScissor(area.x, area.y, area.width, area.height);
-  glEnable(GL_SCISSOR_TEST);
+void Renderer::Parts::setState() const {
+  glDisable(GL_SCISSOR_TEST);
   glDisable(GL_FRAMEBUFFER_SRGB);
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
@@ -271,25 +283,33 @@ void Renderer::Parts::beginArea(const Area& area) const {
   glBindTexture(GL_TEXTURE_2D, m_colourMap);
 }
 
+void Renderer::Parts::drawGround(const ShaderProgram& program, const Ground& ground, const ShadowMap::Footprint& where,
+                                 float behind) const {
+  program.use();
+  program.set("behind", behind);
+  program.set("normal", ground.normal);
+  program.set("middle", where.middle);
+  program.set("alongU", where.halfU);
+  program.set("alongV", where.halfV);
+  m_square.draw();
+}
+
+/// First where shadows may fall, then the rest, a little lower: looking into the shadow map everywhere would take a
+/// third of a picture's time.
 void Renderer::Parts::drawGrounds() const {
-  m_ground.use();
-  m_ground.set("behind", 0.012F * m_size);
+  const float reach = 30 * m_size;
   for (const Ground& ground : m_scenery.grounds) {
+    if (dot(ground.normal, eyeOf(m_uniforms)) < ground.offset) continue;  // who is below the ground looks through it
+    if (const auto shaded = m_shadowMap.footprintOn(ground)) drawGround(m_shadedGround, ground, *shaded, m_behind);
+    const Vector3 middle = m_extent.middle - ground.normal * (dot(ground.normal, m_extent.middle) - ground.offset);
     const Vector3 u = perpendicular(ground.normal);
-    const float reach = 30 * m_size;
-    m_ground.set("normal", ground.normal);
-    m_ground.set("middle", m_extent.middle - ground.normal * (dot(ground.normal, m_extent.middle) - ground.offset));
-    m_ground.set("alongU", u * reach);
-    m_ground.set("alongV", cross(ground.normal, u) * reach);
-    glEnable(GL_CULL_FACE);  // who is below the ground looks through it
-    m_square.draw();
-    glDisable(GL_CULL_FACE);
+    drawGround(m_ground, ground, {middle, u * reach, cross(ground.normal, u) * reach}, 1.01F * m_behind);
   }
 }
 
 void Renderer::Parts::drawSolids() const {
   m_solid.use();
-  m_solid.set("behind", 0.012F * m_size);
+  m_solid.set("behind", m_behind);
   m_solid.set("albedo", stoneColour);
   m_solid.set("roughness", 0.7F);
   for (const auto& solid : m_solids) solid->draw();
@@ -317,7 +337,7 @@ void Renderer::Parts::drawCloths() const {
   program.use();
   for (const auto& hanging : m_hangings) {
     const ClothShape& shape = hanging->shape();
-    constexpr float threads = 160;  // real ones would be finer than pixels
+    constexpr float threads = 128;  // real ones would be finer than pixels
     program.set("threadsPerMetre", threads / hanging->side());
     program.set("threadsPerLine", threads / 16);
     program.set("dryColour", shape.dryColour);
@@ -347,16 +367,44 @@ void Renderer::Parts::drawWater() const {
   glDisable(GL_BLEND);
 }
 
+/// Around all the points and somewhat more; the ground and the sky have no edges.
+PictureBuffer::Part Renderer::Parts::partWithEdges(const std::vector<Vector3>& points, const Area& area) const {
+  const PictureBuffer::Part all{0, 0, area.width, area.height};
+  if (m_scenery.waterLevel) return all;
+  float left = 1;
+  float right = -1;
+  float low = 1;
+  float high = -1;
+  for (const Vector3& point : points) {
+    const auto [x, y, depth] = placeInPicture(m_uniforms, point);
+    if (depth <= 0) return all;
+    left = std::min(left, x);
+    right = std::max(right, x);
+    low = std::min(low, y);
+    high = std::max(high, y);
+  }
+  constexpr float margin = 0.05F;
+  const auto pixel = [](float place, int count) {
+    return static_cast<int>(std::round((0.5F + 0.5F * std::clamp(place, -1.0F, 1.0F)) * static_cast<float>(count)));
+  };
+  const int x = pixel(left - margin, area.width);
+  const int y = pixel(low - margin, area.height);
+  return {x, y, pixel(right + margin, area.width) - x, pixel(high + margin, area.height) - y};
+}
+
 void Renderer::Parts::draw(const Frame& frame, const View& view, const Area& area) {
-  m_extent = extentOf(pointsOf(m_scenery, frame));
-  if (m_size == 0) m_size = 2 * m_extent.radius;
   scale.include(frame);
+  std::vector<Vector3> points = pointsOf(m_scenery, frame);
   for (std::size_t i = 0; i < m_hangings.size(); ++i) {
     m_hangings[i]->update(frame.cloths[i], scale, m_scenery.grounds);
+    for (const Rod& rod : m_hangings[i]->rods()) points.insert(points.end(), {rod.from, rod.to});
   }
-  castShadows(frame);
+  m_extent = extentOf(points);
+  if (m_size == 0) m_size = 2 * m_extent.radius;
+  castShadows(points);
   setPicture(frame, view, area);
-  beginArea(area);
+  m_buffer.begin(area.width, area.height);
+  setState();
   drawCloths();  // the nearest first, so that what they hide is not painted
   drawSolids();
   drawDrops(frame);
@@ -364,10 +412,10 @@ void Renderer::Parts::draw(const Frame& frame, const View& view, const Area& are
   m_backdrop.use();
   m_nothing.drawVertices(3);
   drawWater();
+  m_buffer.put(area.x, area.y, partWithEdges(points, area));
   if (scale.colouring() != Colouring::fabric) {
     drawColourBar(m_overlay, scale, static_cast<float>(area.width), static_cast<float>(area.height));
   }
-  glDisable(GL_SCISSOR_TEST);
 }
 
 void Renderer::Parts::write(const std::string& left, const std::string& right, const Area& area) {

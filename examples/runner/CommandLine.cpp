@@ -4,6 +4,7 @@
 #include "CcdMethod.h"
 #include "CostCommand.h"
 #include "Errors.h"
+#include "ExportCommand.h"
 #include "FallCommand.h"
 #include "NearestWord.h"
 #include "RunCommand.h"
@@ -33,6 +34,7 @@ const char* const examples = R"(Examples:
   wetcloth run curtain.json --quality accurate --json result.json
   wetcloth view rain_on_umbrella_cloth.json             play with it in a window: drag the cloth, change the weather
   wetcloth cost flag_wind_100.json                      what each effect of a scene takes, beside Bullet's step
+  wetcloth export curtain.json --format vtk --out curtain   for ParaView; for Blender, Houdini, ... see --help
   wetcloth validate *.json                              check scenes without running them
   wetcloth ccd queries.csv.gz --method exact            collision checks against exact answers
 
@@ -73,10 +75,6 @@ void addRun(CLI::App& app, RunOptions& options, char** arguments) {
   run->add_option("--precision", options.precision, "Instead of the scene's own")
       ->check(oneOf("--precision", namesOf(precisionNames())));
   run->callback([&options, arguments] {
-    if (options.duration && !(*options.duration > 0 && *options.duration <= 3600)) {
-      throw InputError("wetcloth: --duration = " + CLI::detail::to_string(*options.duration) +
-                       ": must be in (0, 3600] s");
-    }
     if (options.frameCount < 1 || options.frameCount > 10000) {
       throw InputError("wetcloth: --frame-count = " + std::to_string(options.frameCount) + ": must be 1 to 10000");
     }
@@ -114,6 +112,25 @@ void addCost(CLI::App& app, CostOptions& options, char** arguments) {
     }
     measureCost(options, arguments);
   });
+}
+
+void addExport(CLI::App& app, ExportOptions& options, char** arguments) {
+  CLI::App* const command = app.add_subcommand("export", "Run a scene and write it for other programs");
+  command->add_option("scene", options.scene, "Scene file (JSON, see docs/scenes.md)")->required();
+  command->add_option("--format", options.format, exportFormatsExplained())
+      ->check(oneOf("--format", exportFormats()))
+      ->required();
+  command->add_option("--out", options.out, "File, which is replaced, or folder, which must be new or empty")
+      ->required();
+  command->add_option("--fps", options.framesPerSecond, "Frames per simulated second")->capture_default_str();
+  command->add_option("--duration", options.duration, "Simulated time [s], instead of the scene's own");
+  command->add_option("--quality", options.quality, "Substeps and iterations, as for `wetcloth run`")
+      ->check(oneOf("--quality", namesOf(qualityNames())))
+      ->capture_default_str();
+  command->add_option("--precision", options.precision, "Instead of the scene's own")
+      ->check(oneOf("--precision", namesOf(precisionNames())));
+  command->add_option("--json", options.json, "File for what was written as JSON; - is standard output, and only that");
+  command->callback([&options, arguments] { exportScene(options, arguments); });
 }
 
 void addView(CLI::App& app, viewer::ViewOptions& options, char** arguments) {
@@ -205,10 +222,12 @@ int runCommandLine(int count, char** arguments) {
   CostOptions cost;
   viewer::ViewOptions view;
   CcdOptions ccd;
+  ExportOptions exported;
   std::vector<std::string> files;
   addRun(app, run, arguments);
   addFall(app, fall, arguments);
   addCost(app, cost, arguments);
+  addExport(app, exported, arguments);
   addView(app, view, arguments);
   addValidate(app, files);
   addCcd(app, ccd, arguments);

@@ -5,9 +5,6 @@
 
 #include "../runner/Errors.h"
 #include "../runner/JsonOutput.h"
-#include "../runner/RunCommand.h"
-#include "../runner/SceneReader.h"
-#include "../runner/Sibling.h"
 #include "../runner/StateHash.h"
 
 #include <cstdio>
@@ -44,18 +41,6 @@ PlayerOptions playerOptionsOf(const ViewOptions& options) {
   return {width, height, options.frames, picture};
 }
 
-runner::Scene sceneOf(const ViewOptions& options, char** arguments) {
-  runner::Scene scene = runner::readScene(options.scene);
-  if (options.precision.empty()) {
-    runner::continueInPrecision(scene.precision, scene.file + ": /precision", arguments);
-  } else {
-    runner::continueInPrecision(runner::valueOf(runner::precisionNames(), options.precision), "wetcloth: --precision",
-                                arguments);
-  }
-  runner::scaleQuality(scene, runner::valueOf(runner::qualityNames(), options.quality));
-  return scene;
-}
-
 nlohmann::ordered_json jsonOf(const LiveScene& live, const PlayerReport& report) {
   nlohmann::ordered_json json;
   json["scene"] = live.scene().name;
@@ -81,7 +66,7 @@ nlohmann::ordered_json jsonOf(const LiveScene& live, const PlayerReport& report)
 
 void viewScene(const ViewOptions& options, char** arguments) {
   const PlayerOptions playerOptions = playerOptionsOf(options);
-  LiveScene live(sceneOf(options, arguments));
+  LiveScene live(runner::readScene(options, arguments));
   requirePlayer();
   runner::JsonOutput output(options.json);
   live.setPaused(options.paused);

@@ -1,14 +1,13 @@
 #pragma once
 
+#include "../runner/SceneOptions.h"
+
 #include <optional>
 #include <string>
 
 namespace viewer {
 
-struct ViewOptions {
-  std::string scene;
-  std::string precision;  ///< empty: as the scene says
-  std::string quality = "realtime";
+struct ViewOptions : runner::SceneOptions {
   std::string size = "1280x800";  ///< of the window [pixels]
   bool paused = false;
   bool compare = false;

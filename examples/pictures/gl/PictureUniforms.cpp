@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace pictures {
 namespace {
@@ -27,6 +28,27 @@ void look(PictureUniforms& uniforms, const View& view, float aspect, const Exten
   uniforms.right = with(right, tangent * aspect);
   uniforms.above = with(above, tangent);
   uniforms.forward = with(forward, uniforms.forward[3]);
+}
+
+Vector3 eyeOf(const PictureUniforms& uniforms) { return {uniforms.eye[0], uniforms.eye[1], uniforms.eye[2]}; }
+
+Vector3 placeInPicture(const PictureUniforms& uniforms, const Vector3& point) {
+  const Matrix4& m = uniforms.clipFromWorld;
+  const auto row = [&](std::size_t i) {
+    return m[i] * point[0] + m[4 + i] * point[1] + m[8 + i] * point[2] + m[12 + i];
+  };
+  const float distance = row(3);
+  return {row(0) / distance, row(1) / distance, distance};
+}
+
+float depthStep(const PictureUniforms& uniforms, const Extent& extent, float distance) {
+  const Vector3 fromEye = extent.middle - eyeOf(uniforms);
+  const auto depthAt = [&](const Vector3& place) {
+    const Matrix4& m = uniforms.clipFromWorld;
+    const float z = m[2] * place[0] + m[6] * place[1] + m[10] * place[2] + m[14];
+    return z / placeInPicture(uniforms, place)[2];
+  };
+  return depthAt(extent.middle + unit(fromEye) * distance) - depthAt(extent.middle);
 }
 
 }  // namespace pictures

@@ -22,7 +22,6 @@ struct PictureUniforms {
   Vector4 right{};
   Vector4 above{};
   Vector4 forward{};
-  Vector4 viewport{};
   Vector4 shadow{};
 };
 
@@ -35,5 +34,14 @@ struct Extent {
 /// Sets what depends on the camera.
 /// @param aspect  width over height of the picture
 void look(PictureUniforms& uniforms, const View& view, float aspect, const Extent& extent);
+
+Vector3 eyeOf(const PictureUniforms& uniforms);
+
+/// Where a point is seen: to the right and upwards, -1 to 1 in the picture, and its distance along the view [m].
+Vector3 placeInPicture(const PictureUniforms& uniforms, const Vector3& point);
+
+/// By how much the depth of something in the middle of the extent grows when it is moved away from the eye.
+/// @param distance  moved [m]
+float depthStep(const PictureUniforms& uniforms, const Extent& extent, float distance);
 
 }  // namespace pictures

@@ -11,7 +11,7 @@ namespace pictures {
 ShadowMap::ShadowMap() {
   glGenTextures(1, &m_texture);
   glBindTexture(GL_TEXTURE_2D, m_texture);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, texels, texels, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, texels, texels, 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
@@ -36,19 +36,21 @@ ShadowMap::~ShadowMap() {
 
 /// The map moves and grows in steps, lest the edges of shadows shimmer when it follows a cloth.
 void ShadowMap::fit(const std::vector<Vector3>& points, const Vector3& towardsLamp) {
-  const Vector3 right = perpendicular(towardsLamp);
-  const Vector3 up = cross(towardsLamp, right);
-  const Matrix4 view = lookFrom({0, 0, 0}, right, up, towardsLamp * -1);
+  m_towardsLamp = towardsLamp;
+  m_right = perpendicular(towardsLamp);
+  m_up = cross(towardsLamp, m_right);
   Vector3 low{1e30F, 1e30F, 1e30F};
   Vector3 high{-1e30F, -1e30F, -1e30F};
   for (const Vector3& point : points) {
-    const Vector3 seen{dot(right, point), dot(up, point), dot(towardsLamp, point)};
+    const Vector3 seen{dot(m_right, point), dot(m_up, point), dot(towardsLamp, point)};
     for (std::size_t i = 0; i < 3; ++i) {
       low[i] = std::min(low[i], seen[i]);
       high[i] = std::max(high[i], seen[i]);
     }
   }
   if (points.empty()) low = high = {0, 0, 0};
+  m_low = low;
+  m_high = high;
   const float needed = 1.1F * std::max({high[0] - low[0], high[1] - low[1], 1e-3F});
   m_width = std::exp2(std::ceil(4 * std::log2(needed)) / 4);
   const float step = m_width / 64;
@@ -60,7 +62,19 @@ void ShadowMap::fit(const std::vector<Vector3>& points, const Vector3& towardsLa
   }
   low[2] -= 0.05F * m_width;
   high[2] += 0.05F * m_width;
-  m_clipFromWorld = product(orthographic(low, high), view);
+  m_clipFromWorld = product(orthographic(low, high), lookFrom({0, 0, 0}, m_right, m_up, towardsLamp * -1));
+}
+
+std::optional<ShadowMap::Footprint> ShadowMap::footprintOn(const Ground& ground) const {
+  const float facing = dot(ground.normal, m_towardsLamp);
+  if (facing < 0.05F) return std::nullopt;
+  const float margin = 0.05F * m_width;  // for the soft edge
+  const auto alongRay = [&](const Vector3& point) { return m_towardsLamp * (dot(ground.normal, point) / facing); };
+  const Vector3 middle = m_right * (0.5F * (m_low[0] + m_high[0])) + m_up * (0.5F * (m_low[1] + m_high[1]));
+  const Vector3 halfU = m_right * (0.5F * (m_high[0] - m_low[0]) + margin);
+  const Vector3 halfV = m_up * (0.5F * (m_high[1] - m_low[1]) + margin);
+  return Footprint{middle - alongRay(middle) + m_towardsLamp * (ground.offset / facing), halfU - alongRay(halfU),
+                   halfV - alongRay(halfV)};
 }
 
 void ShadowMap::begin() {

@@ -5,6 +5,7 @@
 
 #include <epoxy/gl.h>
 
+#include <optional>
 #include <vector>
 
 namespace pictures {
@@ -26,6 +27,14 @@ class ShadowMap {
   const Matrix4& clipFromWorld() const { return m_clipFromWorld; }
   /// To coordinates of the map, [0, 1].
   Matrix4 mapFromWorld() const;
+  /// Where shadows can fall on a plane: a parallelogram, given by its middle and two sides' halves. None where the lamp
+  /// grazes the plane or is behind it.
+  struct Footprint {
+    Vector3 middle{};
+    Vector3 halfU{};
+    Vector3 halfV{};
+  };
+  std::optional<Footprint> footprintOn(const Ground& ground) const;
   /// Width of what the map shows [m].
   float width() const { return m_width; }
   static constexpr int texels = 1024;  ///< on each side
@@ -36,6 +45,11 @@ class ShadowMap {
   GLuint m_framebuffer = 0;
   GLint m_framebufferBefore = 0;
   Matrix4 m_clipFromWorld{};
+  Vector3 m_right{};
+  Vector3 m_up{};
+  Vector3 m_towardsLamp{};
+  Vector3 m_low{};  // of what casts shadows, along these three [m]
+  Vector3 m_high{};
   float m_width = 1;
 };
 

@@ -14,7 +14,7 @@ vec2 lines(vec2 at, vec2 width) {
 float pattern() {
   vec2 width = fwidth(thread) + 1e-4;
   float blurred = max(width.x, width.y);
-  float fade = clamp(1.6 - 3.2 * blurred, 0.0, 1.0);
+  float fade = clamp(2.0 - 5.0 * blurred, 0.0, 1.0);
   vec2 wave = sin(3.14159265 * thread);
   float weave = 1.0 + fade * (0.16 * wave.x * wave.y - 0.05);
   vec2 line = lines(thread / threadsPerLine, width / threadsPerLine);

@@ -9,6 +9,6 @@ out vec3 place;
 
 void main() {
   place = middle + alongU * corner.x + alongV * corner.y;
-  vec3 fromEye = place - eye.xyz;
-  gl_Position = clipFromWorld * vec4(place + normalize(fromEye) * behind, 1);
+  gl_Position = clipFromWorld * vec4(place, 1);
+  gl_Position.z += behind * gl_Position.w;
 }
