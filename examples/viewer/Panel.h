@@ -22,7 +22,7 @@ inline constexpr double slowMotionScale = 0.1;  ///< simulated time over the clo
 class Panel {
  public:
   /// In the window's units, for text of usual size.
-  static constexpr float usualWidth = 330;
+  static constexpr float usualWidth = 345;
 
   /// @param left of the panel in the window; @param height of the window; @param width of the panel
   void draw(LiveScene& live, ViewSettings& settings, float left, float width, float height);

@@ -129,6 +129,7 @@ class Player {
   void drawOverScene();
   void drawGrip();
   void savePicture(const std::string& file);
+  void saveLastPicture();
   void fitComparison();
   pictures::View fittedView();
   ViewLayout layout() const;
@@ -159,7 +160,7 @@ PlayerReport Player::run() {
     if (m_wantsPicture) savePicture(unusedPictureName());
     m_wantsPicture = false;
     const bool isLast = m_window.isClosed() || (m_options.frames && m_frames + 1 >= *m_options.frames);
-    if (isLast && !m_options.screenshot.empty()) pictures::writePng(m_options.screenshot, m_window.read());
+    if (isLast && !m_options.screenshot.empty()) saveLastPicture();
     m_window.show();
     ++m_frames;
   }
@@ -261,6 +262,15 @@ void Player::fitComparison() {
 pictures::View Player::fittedView() {
   const auto aspect = static_cast<float>(layout().aspect());
   return pictures::fitView(m_live.scenery(), framesToFit(m_live.scene(), m_live.frame(Side::wet)), aspect);
+}
+
+void Player::saveLastPicture() {
+  try {
+    pictures::writePng(m_options.screenshot, m_window.read());
+  } catch (const std::runtime_error& failed) {
+    throw runner::RunError("wetcloth: --screenshot = \"" + runner::onOneLine(m_options.screenshot) +
+                           "\": " + runner::onOneLine(failed.what()));
+  }
 }
 
 ViewLayout Player::layout() const {

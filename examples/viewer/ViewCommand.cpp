@@ -3,11 +3,14 @@
 #include "LiveScene.h"
 #include "Player.h"
 
+#include "../pictures/FileAside.h"
 #include "../runner/Errors.h"
 #include "../runner/JsonOutput.h"
 #include "../runner/StateHash.h"
 
 #include <cstdio>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace viewer {
@@ -29,16 +32,26 @@ std::pair<int, int> sizeOf(const std::string& text) {
   return {width, height};
 }
 
+/// Before the window opens, so that a slip in the name is told at once.
+void requirePicture(const std::string& file) {
+  const auto reject = [&](const std::string& reason) {
+    throw runner::InputError("wetcloth: --screenshot = \"" + runner::onOneLine(file) + "\": " + reason);
+  };
+  if (file.size() < 5 || file.substr(file.size() - 4) != ".png") reject("must be a file that ends in .png");
+  try {
+    pictures::FileAside{file};
+  } catch (const std::runtime_error& error) {
+    reject(runner::onOneLine(error.what()));
+  }
+}
+
 PlayerOptions playerOptionsOf(const ViewOptions& options) {
   if (options.frames && (*options.frames < 1 || *options.frames > 1000000)) {
     throw runner::InputError("wetcloth: --frames = " + std::to_string(*options.frames) + ": must be 1 to 1000000");
   }
-  const std::string& picture = options.screenshot;
-  if (!picture.empty() && (picture.size() < 4 || picture.substr(picture.size() - 4) != ".png")) {
-    throw runner::InputError("wetcloth: --screenshot = \"" + runner::onOneLine(picture) + "\": must end in .png");
-  }
+  if (!options.screenshot.empty()) requirePicture(options.screenshot);
   const auto [width, height] = sizeOf(options.size);
-  return {width, height, options.frames, picture};
+  return {width, height, options.frames, options.screenshot};
 }
 
 nlohmann::ordered_json jsonOf(const LiveScene& live, const PlayerReport& report) {

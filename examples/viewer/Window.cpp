@@ -65,6 +65,7 @@ void style(float scale) {
   look.FrameRounding = 3;
   look.GrabRounding = 3;
   look.WindowBorderSize = 0;
+  look.ScrollbarSize = 10;
   look.ItemSpacing = ImVec2(8, 4);
   look.FramePadding = ImVec2(5, 2);
   look.WindowPadding = ImVec2(10, 8);
