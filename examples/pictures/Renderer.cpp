@@ -27,7 +27,9 @@ namespace {
 constexpr GLuint pictureBlock = 0;
 constexpr GLuint shadowUnit = 0;
 constexpr GLuint colourMapUnit = 1;
-constexpr float shadowSoftness = 0.012F;  // over the size of what there is to see
+constexpr float shadowSoftness = 0.009F;  // over the size of what there is to see
+/// Cloth sinks a little into what it lies on, and its triangles cut into what is round: over the same size.
+constexpr float sunk = 0.035F;
 
 const Vector3 stoneColour{0.50F, 0.42F, 0.33F};
 const Vector3 metalColour{0.16F, 0.17F, 0.19F};
@@ -125,6 +127,7 @@ class Renderer::Parts {
 
   void draw(const Frame& frame, const View& view, const Area& area);
   void write(const std::string& left, const std::string& right, const Area& area);
+  void writeHead(const std::string& text, const Area& area);
 
   ColourScale scale{Colouring::fabric};
 
@@ -244,10 +247,12 @@ void Renderer::Parts::castShadows(const std::vector<Vector3>& points) {
   m_shadowMap.begin();
   m_caster.use();
   m_caster.set("clipFromCaster", m_shadowMap.clipFromWorld());
+  m_caster.set("behind", 0.0F);
   for (const auto& hanging : m_hangings) {
     hanging->drawCloth();
     hanging->drawBars();
   }
+  m_caster.set("behind", m_shadowMap.depthStep(sunk * m_size));
   for (const auto& solid : m_solids) solid->draw();
   m_shadowMap.end();
 }
@@ -259,11 +264,12 @@ void Renderer::Parts::setPicture(const Frame& frame, const View& view, const Are
   uniforms.towardsLamp = {m_towardsLamp[0], m_towardsLamp[1], m_towardsLamp[2], 0};
   uniforms.up = {m_scenery.up[0], m_scenery.up[1], m_scenery.up[2], m_size};
   uniforms.forward[3] = static_cast<float>(frame.time);
-  uniforms.shadow = {m_shadowMap.width() / ShadowMap::texels, shadowSoftness * m_size / m_shadowMap.width(), 0, 0};
+  const float softness = shadowSoftness * m_size + 2 * m_shadowMap.width() / ShadowMap::texels;
+  uniforms.shadow = {softness, softness / m_shadowMap.width(), 0, 0};
   glBindBuffer(GL_UNIFORM_BUFFER, m_pictureBuffer);
   glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof uniforms, &uniforms);
   glBindBufferBase(GL_UNIFORM_BUFFER, pictureBlock, m_pictureBuffer);
-  m_behind = depthStep(uniforms, m_extent, 0.012F * m_size);
+  m_behind = depthStep(uniforms, m_extent, sunk * m_size);
 }
 
 /// The shaders give sRGB themselves, so that any framebuffer will do.
@@ -351,7 +357,7 @@ void Renderer::Parts::drawWater() const {
   if (!m_scenery.waterLevel) return;
   const Vector3& up = m_scenery.up;
   const Vector3 u = perpendicular(up);
-  const float reach = 1.3F * m_size;
+  const float reach = 6 * m_size;
   const Vector3 middle = m_extent.middle + up * (*m_scenery.waterLevel - dot(up, m_extent.middle));
   m_water.use();
   m_water.set("behind", 0.0F);
@@ -419,7 +425,6 @@ void Renderer::Parts::draw(const Frame& frame, const View& view, const Area& are
 }
 
 void Renderer::Parts::write(const std::string& left, const std::string& right, const Area& area) {
-  const Overlay::Tint ink{0.16F, 0.20F, 0.25F, 1};
   const auto width = static_cast<float>(area.width);
   const auto height = static_cast<float>(area.height);
   glViewport(area.x, area.y, area.width, area.height);
@@ -427,6 +432,15 @@ void Renderer::Parts::write(const std::string& left, const std::string& right, c
   const float margin = 1.2F * m_overlay.textSize();
   m_overlay.addText(margin, height - margin, left, ink);
   m_overlay.addText(width - margin - m_overlay.widthOf(right), height - margin, right, ink);
+  m_overlay.draw(width, height);
+}
+
+void Renderer::Parts::writeHead(const std::string& text, const Area& area) {
+  const auto width = static_cast<float>(area.width);
+  const auto height = static_cast<float>(area.height);
+  glViewport(area.x, area.y, area.width, area.height);
+  m_overlay.setTextSize(1.15F * textSizeFor(width, height));
+  m_overlay.addText(0.5F * (width - m_overlay.widthOf(text)), 1.9F * m_overlay.textSize(), text, ink);
   m_overlay.draw(width, height);
 }
 
@@ -448,5 +462,7 @@ void Renderer::draw(const Frame& frame, const View& view, const Area& area) { m_
 void Renderer::write(const std::string& left, const std::string& right, const Area& area) {
   m_parts->write(left, right, area);
 }
+
+void Renderer::writeHead(const std::string& text, const Area& area) { m_parts->writeHead(text, area); }
 
 }  // namespace pictures
