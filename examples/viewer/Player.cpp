@@ -10,6 +10,7 @@
 #include "../pictures/PngFile.h"
 #include "../pictures/Renderer.h"
 #include "../runner/Errors.h"
+#include "../runner/StagedOutput.h"
 
 #include <imgui.h>
 
@@ -129,7 +130,6 @@ class Player {
   void drawOverScene();
   void drawGrip();
   void savePicture(const std::string& file);
-  void saveLastPicture();
   void fitComparison();
   pictures::View fittedView();
   ViewLayout layout() const;
@@ -160,7 +160,7 @@ PlayerReport Player::run() {
     if (m_wantsPicture) savePicture(unusedPictureName());
     m_wantsPicture = false;
     const bool isLast = m_window.isClosed() || (m_options.frames && m_frames + 1 >= *m_options.frames);
-    if (isLast && !m_options.screenshot.empty()) saveLastPicture();
+    if (isLast && !m_options.lastPicture.empty()) pictures::writePng(m_options.lastPicture, m_window.read());
     m_window.show();
     ++m_frames;
   }
@@ -245,7 +245,9 @@ void Player::drawGrip() {
 
 void Player::savePicture(const std::string& file) {
   try {
-    pictures::writePng(file, m_window.read());
+    runner::StagedOutput output(file, file, runner::StagedOutput::Kind::file);
+    pictures::writePng(output.path(), m_window.read());
+    output.commit();
     m_settings.message = "picture in " + file;
   } catch (const std::runtime_error& failed) {
     m_settings.message = failed.what();
@@ -262,15 +264,6 @@ void Player::fitComparison() {
 pictures::View Player::fittedView() {
   const auto aspect = static_cast<float>(layout().aspect());
   return pictures::fitView(m_live.scenery(), framesToFit(m_live.scene(), m_live.frame(Side::wet)), aspect);
-}
-
-void Player::saveLastPicture() {
-  try {
-    pictures::writePng(m_options.screenshot, m_window.read());
-  } catch (const std::runtime_error& failed) {
-    throw runner::RunError("wetcloth: --screenshot = \"" + runner::onOneLine(m_options.screenshot) +
-                           "\": " + runner::onOneLine(failed.what()));
-  }
 }
 
 ViewLayout Player::layout() const {

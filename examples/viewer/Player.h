@@ -11,7 +11,7 @@ struct PlayerOptions {
   int width = 1280;  ///< of the window [pixels]
   int height = 800;
   std::optional<int> frames;  ///< none: until the window is closed
-  std::string screenshot;
+  std::string lastPicture;    ///< file for it as PNG; empty: none
 };
 
 /// What somebody did in the window, and how fast it was.

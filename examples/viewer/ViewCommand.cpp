@@ -3,13 +3,13 @@
 #include "LiveScene.h"
 #include "Player.h"
 
-#include "../pictures/FileAside.h"
 #include "../runner/Errors.h"
 #include "../runner/JsonOutput.h"
+#include "../runner/StagedOutput.h"
 #include "../runner/StateHash.h"
 
 #include <cstdio>
-#include <stdexcept>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -32,26 +32,23 @@ std::pair<int, int> sizeOf(const std::string& text) {
   return {width, height};
 }
 
-/// Before the window opens, so that a slip in the name is told at once.
-void requirePicture(const std::string& file) {
-  const auto reject = [&](const std::string& reason) {
-    throw runner::InputError("wetcloth: --screenshot = \"" + runner::onOneLine(file) + "\": " + reason);
-  };
-  if (file.size() < 5 || file.substr(file.size() - 4) != ".png") reject("must be a file that ends in .png");
-  try {
-    pictures::FileAside{file};
-  } catch (const std::runtime_error& error) {
-    reject(runner::onOneLine(error.what()));
+/// Made before the window opens, so that a slip in the name is told at once; null: no picture is wanted.
+std::unique_ptr<runner::StagedOutput> pictureOf(const ViewOptions& options) {
+  const std::string& file = options.screenshot;
+  if (file.empty()) return nullptr;
+  const std::string option = "wetcloth: --screenshot = \"" + runner::onOneLine(file) + "\"";
+  if (file.size() < 5 || file.substr(file.size() - 4) != ".png") {
+    throw runner::InputError(option + ": must be a file that ends in .png");
   }
+  return std::make_unique<runner::StagedOutput>(option, file, runner::StagedOutput::Kind::file);
 }
 
 PlayerOptions playerOptionsOf(const ViewOptions& options) {
   if (options.frames && (*options.frames < 1 || *options.frames > 1000000)) {
     throw runner::InputError("wetcloth: --frames = " + std::to_string(*options.frames) + ": must be 1 to 1000000");
   }
-  if (!options.screenshot.empty()) requirePicture(options.screenshot);
   const auto [width, height] = sizeOf(options.size);
-  return {width, height, options.frames, options.screenshot};
+  return {width, height, options.frames, ""};
 }
 
 nlohmann::ordered_json jsonOf(const LiveScene& live, const PlayerReport& report) {
@@ -78,13 +75,16 @@ nlohmann::ordered_json jsonOf(const LiveScene& live, const PlayerReport& report)
 }  // namespace
 
 void viewScene(const ViewOptions& options, char** arguments) {
-  const PlayerOptions playerOptions = playerOptionsOf(options);
+  PlayerOptions playerOptions = playerOptionsOf(options);
   LiveScene live(runner::readScene(options, arguments));
+  const auto picture = pictureOf(options);
   requirePlayer();
   runner::JsonOutput output(options.json);
   live.setPaused(options.paused);
   live.setCompared(options.compare);
+  if (picture) playerOptions.lastPicture = picture->path();
   const PlayerReport report = play(live, playerOptions);
+  if (picture) picture->commit();
   output.write(jsonOf(live, report));
 }
 
