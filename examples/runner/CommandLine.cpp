@@ -11,6 +11,8 @@
 #include "RunCommand.h"
 #include "ValidateCommand.h"
 
+#include "../viewer/ViewCommand.h"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -31,6 +33,7 @@ const char* const examples = R"(Examples:
   wetcloth run hanging_towel.json                       run a scene and say what came of it
   wetcloth run flag_wind_100.json --frames pictures     and paint it: pictures/frame_0000.svg, ...
   wetcloth run curtain.json --quality accurate --json result.json
+  wetcloth view rain_on_umbrella_cloth.json             play with it in a window: drag the cloth, change the weather
   wetcloth render flag_wind_100.json --out flag.mp4     a film; .png, .gif, .webm as well; needs no display
   wetcloth render hanging_towel.json --out towel.html   a page: orbit, play, scrub, plots
   wetcloth render dip_and_lift.json --out dip.png --times 0,3,6,9 --size 480x640    a strip of pictures
@@ -168,6 +171,24 @@ void addExport(CLI::App& app, ExportOptions& options, char** arguments) {
   command->callback([&options, arguments] { exportScene(options, arguments); });
 }
 
+void addView(CLI::App& app, viewer::ViewOptions& options, char** arguments) {
+  CLI::App* const view = app.add_subcommand("view", "Play with a scene in a window");
+  view->add_option("scene", options.scene, "Scene file (JSON, see docs/scenes.md)")->required();
+  view->add_option("--size", options.size, "Of the window, WIDTHxHEIGHT [pixels]")->capture_default_str();
+  view->add_flag("--paused", options.paused, "Begin paused");
+  view->add_flag("--compare", options.compare, "Begin with plain Bullet beside the wet cloth");
+  view->add_option("--quality", options.quality,
+                   "Substeps and iterations, as for `wetcloth run`; the window changes both")
+      ->check(oneOf("--quality", namesOf(qualityNames())))
+      ->capture_default_str();
+  view->add_option("--precision", options.precision, "Instead of the scene's own")
+      ->check(oneOf("--precision", namesOf(precisionNames())));
+  view->add_option("--frames", options.frames, "Close the window after so many pictures, one step of the scene each");
+  view->add_option("--screenshot", options.screenshot, "File for the window's last picture, .png");
+  view->add_option("--json", options.json, "File for how it was left, as JSON; - is standard output");
+  view->callback([&options, arguments] { viewer::viewScene(options, arguments); });
+}
+
 void addValidate(CLI::App& app, std::vector<std::string>& files) {
   CLI::App* const validate = app.add_subcommand("validate", "Check scenes without running them");
   validate->add_option("scenes", files, "Scene files")->required();
@@ -237,6 +258,7 @@ int runCommandLine(int count, char** arguments) {
   RunOptions run;
   FallOptions fall;
   CostOptions cost;
+  viewer::ViewOptions view;
   CcdOptions ccd;
   ExportOptions exported;
   RenderOptions render;
@@ -246,6 +268,7 @@ int runCommandLine(int count, char** arguments) {
   addFall(app, fall, arguments);
   addCost(app, cost, arguments);
   addExport(app, exported, arguments);
+  addView(app, view, arguments);
   addValidate(app, files);
   addCcd(app, ccd, arguments);
   try {
