@@ -10,6 +10,7 @@
 // Pictures against those in tests/data/pictures. After a change of how things look: look at the new ones, and store
 // them with WETCLOTH_STORE_PICTURES=1.
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -81,3 +82,5 @@ TEST_F(RenderReference, MistakesAreLargerThanTheTolerance) {
   EXPECT_GT(meanDifference(reference, draw(sceneFile("hanging_towel"), {"--times", "2", "--colouring", "stretch"})),
             tolerance);
 }
+
+}  // namespace wetcloth_test

@@ -7,6 +7,7 @@
 
 // What the window does is in tests/viewer.
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -58,3 +59,5 @@ TEST(View, ARefusalLeavesNoFile) {
   }
   EXPECT_EQ(files, 1);
 }
+
+}  // namespace wetcloth_test
