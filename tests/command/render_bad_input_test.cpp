@@ -77,7 +77,7 @@ TEST(RenderBadInput, Words) {
 
 TEST(RenderBadInput, Suffixes) {
   for (const char* name : {"a.foo", "a", "a.png.txt", ".png", "a.PNG"}) {
-    expectRefused(name, {{"--duration=0.1"}, {"--out = ", name, "must end in one of .png, .mp4, .webm, .gif"}});
+    expectRefused(name, {{"--duration=0.1"}, {"--out = ", name, "must end in one of .png, .mp4, .webm, .gif, .html"}});
   }
 }
 

@@ -15,9 +15,10 @@ namespace {
 
 using namespace command;
 
-/// Mean difference of two drawings of one scene, in steps of 1/255. Another driver, compiler or precision moves edges
-/// by part of a pixel, which in pictures of 160 x 120 comes to less than 1; the least of the mistakes below comes to 4.
-constexpr double tolerance = 2;
+/// Mean difference of two drawings of one scene, in steps of 1/255. Bullet in float64 instead of float32 comes to 0.1
+/// in these pictures; another driver moves edges by part of a pixel, and each pixel on an edge is one of a few hundred
+/// of 19200. Cloth whose wet parts are drawn as dry comes to 1.1 and 5.2 in the towels.
+constexpr double tolerance = 0.75;
 
 struct Shot {
   std::string name;
@@ -28,9 +29,10 @@ struct Shot {
 /// Early in each run, while another last digit has not yet become another fold.
 const std::vector<Shot>& shots() {
   static const std::vector<Shot> all{
-      {"towel_half_wet", "hanging_towel", {"--times", "2"}},
+      {"towel_half_wet", "hanging_towel", {"--times", "4"}},
       {"towel_saturation", "hanging_towel", {"--times", "2", "--colouring", "saturation"}},
-      {"cloth_on_sphere", "soak_and_drape_sphere", {"--times", "0.6"}},
+      {"towel_wet", "laundry_line", {"--times", "0.3"}},
+      {"cloth_on_sphere", "soak_and_drape_sphere", {"--times", "0.3"}},
       {"dipped", "dip_and_lift", {"--times", "3"}},
       {"flag_speed", "flag_wind_100", {"--times", "0.5", "--colouring", "speed"}}};
   return all;
@@ -67,20 +69,19 @@ TEST_F(RenderReference, PicturesAreThoseStored) {
   }
 }
 
-/// The tolerance tells a towel from one that is drawn dry, seen from elsewhere, or without its fabric.
+/// The tolerance tells a towel from one that is dry, seen from elsewhere, or without its fabric.
 TEST_F(RenderReference, MistakesAreLargerThanTheTolerance) {
-  const Picture reference = readPicture(referenceOf("towel_half_wet"));
-  Json dry = readJson(sceneFile("hanging_towel"));
-  dry["cloths"][0]["effects"].erase("absorption");
+  const Picture reference = readPicture(referenceOf("towel_wet"));
+  Json dry = readJson(sceneFile("laundry_line"));
+  dry["cloths"][0]["initial_saturation"] = 0;
   const std::string dryScene = m_directory.write("dry.json", dry.dump());
-  EXPECT_GT(meanDifference(reference, draw(dryScene, {"--times", "2"})), tolerance);
-  Json soaked = dry;
-  soaked["cloths"][0]["initial_saturation"] = 1;
-  const std::string soakedScene = m_directory.write("soaked.json", soaked.dump());
-  EXPECT_GT(meanDifference(reference, draw(soakedScene, {"--times", "2"})), tolerance);
-  EXPECT_GT(meanDifference(reference, draw(sceneFile("hanging_towel"), {"--times", "2", "--orbit", "5"})), tolerance);
-  EXPECT_GT(meanDifference(reference, draw(sceneFile("hanging_towel"), {"--times", "2", "--colouring", "stretch"})),
-            tolerance);
+  EXPECT_GT(meanDifference(reference, draw(dryScene, {"--times", "0.3"})), 2 * tolerance);
+  for (const std::vector<std::string>& mistake :
+       std::vector<std::vector<std::string>>{{"--orbit", "5"}, {"--colouring", "stretch"}, {"--field-of-view", "60"}}) {
+    SCOPED_TRACE(mistake[0]);
+    const Picture picture = draw(sceneFile("laundry_line"), {"--times", "0.3", mistake[0], mistake[1]});
+    EXPECT_GT(meanDifference(reference, picture), 2 * tolerance);
+  }
 }
 
 }  // namespace wetcloth_test
