@@ -107,15 +107,15 @@ class Packer {
   }
 
   /// Of a frame's nodes: how far each is from where it would be had it gone on as before, less the same of the node
-  /// before it. Low bytes and high bytes apart.
+  /// before it. All low bytes, then all high bytes.
   void putPositions(std::size_t cloth) {
     for (std::size_t i = 0; i < 3; ++i) {
       std::vector<int> last, before;
+      std::string low, high;
       for (const Frame& frame : m_recording.frames) {
         std::vector<int> now;
         for (const Vector3& p : frame.cloths[cloth].positions) now.push_back(axis(i).quantized(p[i], 65535));
         if (last.empty()) last = before = std::vector<int>(now.size(), 0);
-        std::string low, high;
         int left = 0;
         for (std::size_t node = 0; node < now.size(); ++node) {
           const int surprise = now[node] - 2 * last[node] + before[node];
@@ -124,10 +124,10 @@ class Packer {
           putByte(high, rest >> 8U);
           left = surprise;
         }
-        bytes() += low + high;
         before = std::move(last);
         last = std::move(now);
       }
+      bytes() += low + high;
     }
   }
 
