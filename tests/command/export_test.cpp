@@ -78,7 +78,7 @@ TEST(Export, AFrameBetweenTwoStepsIsMixedOfBoth) {
   const std::string coarse = bytesOf(directory.path("coarse/cloth.pc2"));
   const std::string fine = bytesOf(directory.path("fine/cloth.pc2"));
   constexpr std::size_t height = 32 + 4;  // of the first node
-  constexpr std::size_t frame = 20 * 12;
+  constexpr std::size_t frame = std::size_t{20} * 12;
   const float first = numberAt<float>(coarse, height + 4 * frame);
   const float second = numberAt<float>(coarse, height + 5 * frame);
   ASSERT_GT(first - second, 1e-3F);
@@ -91,13 +91,13 @@ TEST(Export, PointCacheHasItsHeaderAndAllFrames) {
   const Json said = exported(directory, smallScene(), "obj_pc2", "obj");
   const std::string bytes = bytesOf(directory.path("obj/cloth.pc2"));
   ASSERT_GE(bytes.size(), 32u);
-  EXPECT_EQ(bytes.substr(0, 12), std::string("POINTCACHE2", 12));
+  EXPECT_EQ(bytes.substr(0, 12), std::string("POINTCACHE2") + '\0');
   EXPECT_EQ(numberAt<int>(bytes, 12), 1);
   EXPECT_EQ(numberAt<int>(bytes, 16), 20);
   EXPECT_EQ(numberAt<float>(bytes, 20), 0.0F);
   EXPECT_EQ(numberAt<float>(bytes, 24), 1.0F);
   EXPECT_EQ(numberAt<int>(bytes, 28), said.at("frames").get<int>());
-  EXPECT_EQ(bytes.size(), 32 + 12 * 20 * said.at("frames").get<std::size_t>());
+  EXPECT_EQ(bytes.size(), 32 + std::size_t{240} * said.at("frames").get<std::size_t>());
 }
 
 TEST(Export, UsdHasAnimatedPointsAndWetness) {
