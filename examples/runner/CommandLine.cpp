@@ -6,6 +6,7 @@
 #include "Errors.h"
 #include "FallCommand.h"
 #include "NearestWord.h"
+#include "PlotCommand.h"
 #include "RunCommand.h"
 #include "ValidateCommand.h"
 
@@ -30,6 +31,7 @@ const char* const examples = R"(Examples:
   wetcloth run flag_wind_100.json --frames pictures     and paint it: pictures/frame_0000.svg, ...
   wetcloth run curtain.json --quality accurate --json result.json
   wetcloth cost flag_wind_100.json                      what each effect of a scene takes, beside Bullet's step
+  wetcloth plot fall --out plots                        the wet and the dry fall as CSV, SVG and PNG
   wetcloth validate *.json                              check scenes without running them
   wetcloth ccd queries.csv.gz --method exact            collision checks against exact answers
 
@@ -113,6 +115,20 @@ void addCost(CLI::App& app, CostOptions& options, char** arguments) {
   });
 }
 
+void addPlot(CLI::App& app, PlotOptions& options) {
+  CLI::App* const plot =
+      app.add_subcommand("plot", "Plot the paper's numbers beside ours: CSV, with gnuplot SVG and PNG");
+  plot->add_option(
+          "name", options.name,
+          "mass: of a node that soaks; fall: height against time; fps: frames per second; wicking: profile of a "
+          "strip; springs: of the mesh; all")
+      ->check(oneOf("NAME", plotWords()))
+      ->capture_default_str();
+  plot->add_option("--out", options.directory, "Directory for the files, made if it is not there")->required();
+  plot->add_option("--json", options.json, "File for what was made as JSON; - is standard output, with nothing else");
+  plot->callback([&options] { makePlots(options); });
+}
+
 void addValidate(CLI::App& app, std::vector<std::string>& files) {
   CLI::App* const validate = app.add_subcommand("validate", "Check scenes without running them");
   validate->add_option("scenes", files, "Scene files")->required();
@@ -183,10 +199,12 @@ int runCommandLine(int count, char** arguments) {
   FallOptions fall;
   CostOptions cost;
   CcdOptions ccd;
+  PlotOptions plot;
   std::vector<std::string> files;
   addRun(app, run, arguments);
   addFall(app, fall, arguments);
   addCost(app, cost, arguments);
+  addPlot(app, plot);
   addValidate(app, files);
   addCcd(app, ccd, arguments);
   try {
