@@ -58,11 +58,12 @@ std::string gnuplotScript(const Plot& plot, const std::string& csv, const std::s
       "set datafile separator ';'\n"
       "set termoption noenhanced\n"
       "set border 3 linecolor rgb '#444444'\nset tics nomirror out textcolor rgb '#222222'\n"
-      "set grid linecolor rgb '#dddddd' linewidth 1 dashtype solid\n";
+      "set grid linetype 1 linecolor rgb '#e4e4e4' linewidth 0.7\n";
   script += "set title " + quoted(plot.title) + "\n";
   script += "set xlabel " + quoted(plot.xLabel) + "\nset ylabel " + quoted(plot.yLabel) + "\n";
   script += "set xrange " + plot.xRange + "\nset yrange " + plot.yRange + "\n";
-  script += "set key " + plot.keyPlace + " samplen 2.5 spacing 1.2 box linecolor rgb '#cccccc' opaque\n";
+  script +=
+      "set key " + plot.keyPlace + " Left reverse samplen 2.5 spacing 1.2 width -2 box linecolor rgb '#cccccc' opaque\n";
   script += "set format '%g'\n";
   if (plot.xScale == Plot::Scale::logarithmic) script += "set logscale x\n";
   if (plot.yScale == Plot::Scale::logarithmic) script += "set logscale y\n";

@@ -3,20 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <memory>
 
 namespace runner {
 namespace {
 
-constexpr double step = 1.0 / 60;                            // [s]
-constexpr double frontLevel = 0.05;                          // saturation at which the front is read
-constexpr double length = 0.2;                               // [m]
-constexpr double dipped = 0.01;                              // of it [m]
-constexpr double profileTimes[] = {15, 60, 240, 900, 3600};  // [s]
+constexpr double step = 0.5;         // [s]
+constexpr double frontLevel = 0.05;  // saturation at which the front is read
+constexpr double length = 0.2;       // [m]
+constexpr double dipped = 0.01;      // of it [m]
 
-/// The strip of examples/scenes/wick_strip.json: cotton, 2 cm wide, on a board, its lower end in water.
+/// The strip of examples/scenes/wick_strip.json, in twice the rows: cotton on a board, its lower end in water.
 class Strip {
  public:
   explicit Strip(bool feelsGravity) : m_world(BulletWorld::Settings{}) {
@@ -24,7 +22,7 @@ class Strip {
     m_world.worldInfo().water_offset = 0;
     m_world.worldInfo().water_density = 1000;
     m_patch.columns = 2;
-    m_patch.rows = 61;
+    m_patch.rows = 121;
     m_patch.origin = btVector3(btScalar(-0.01), btScalar(-dipped), 0);
     m_patch.edgeU = btVector3(btScalar(0.02), 0, 0);
     m_patch.edgeV = btVector3(0, btScalar(length), 0);
@@ -64,10 +62,17 @@ class Strip {
   long long m_steps = 0;
 };
 
-PlotSeries profileOf(const Strip& strip, const std::string& colour) {
-  char name[40];
-  std::snprintf(name, sizeof name, "%.0f s", strip.time());
-  PlotSeries series{name, name, PlotSeries::Mark::line, colour, {}, {}};
+struct Moment {
+  double time;  ///< [s]
+  const char* legend;
+  const char* colour;
+};
+
+PlotSeries profileOf(const Strip& strip, const Moment& moment) {
+  PlotSeries series;
+  series.name = std::to_string(std::lround(moment.time)) + " s";
+  series.legend = moment.legend;
+  series.colour = moment.colour;
   for (int row = 0; row < strip.rows(); ++row) series.add(1e3 * strip.height(row), strip.saturation(row));
   return series;
 }
@@ -85,7 +90,11 @@ PlotSeries equilibrium() {
 }
 
 Plot profilePlot(const PlotProgress& progress) {
-  const char* const colours[] = {"#a9d3ee", "#69b0dd", "#2f86c1", "#135a93", "#0a2f57"};
+  const Moment moments[] = {{60, "1 min", "#a9d3ee"},
+                            {300, "5 min", "#69b0dd"},
+                            {1200, "20 min", "#2f86c1"},
+                            {5400, "90 min", "#135a93"},
+                            {28800, "8 h", "#0a2f57"}};
   Plot plot;
   plot.name = "wicking";
   plot.title = "A strip of cotton that stands in water: its saturation over the height";
@@ -96,12 +105,12 @@ Plot profilePlot(const PlotProgress& progress) {
   plot.xRange = "[-10:190]";
   plot.yRange = "[0:1.05]";
   Strip strip(true);
-  for (std::size_t i = 0; i < std::size(profileTimes); ++i) {
-    while (strip.time() < profileTimes[i] - step / 2) {
+  for (const Moment& moment : moments) {
+    while (strip.time() < moment.time - step / 2) {
       strip.advance();
-      progress(strip.time() / profileTimes[std::size(profileTimes) - 1]);
+      progress(strip.time() / std::rbegin(moments)->time);
     }
-    plot.series.push_back(profileOf(strip, colours[i]));
+    plot.series.push_back(profileOf(strip, moment));
   }
   plot.series.push_back(equilibrium());
   return plot;
@@ -110,7 +119,7 @@ Plot profilePlot(const PlotProgress& progress) {
 PlotSeries frontOf(bool feelsGravity) {
   PlotSeries series;
   Strip strip(feelsGravity);
-  for (double next = 1; next <= 3600; next *= 1.12) {
+  for (double next = 5; next <= 9000; next *= 1.12) {
     while (strip.time() < next - step / 2) strip.advance();
     if (strip.front() >= strip.height(strip.rows() - 1)) break;
     series.add(strip.time(), 1e3 * strip.front());
@@ -125,7 +134,7 @@ constexpr double washburnFactor = 1.0880;
 PlotSeries washburn() {
   PlotSeries series{
       "Washburn", "front as sqrt(t) (Washburn 1921)", PlotSeries::Mark::reference, plot_colours::black, {}, {}};
-  for (double time = 1; time <= 3600; time *= 1.12) {
+  for (double time = 5; time <= 9000; time *= 1.12) {
     const double height = washburnFactor * std::sqrt(wetcloth::Diffusion::Parameters{}.weftDiffusivity * time);
     if (height > length - dipped) break;
     series.add(time, 1e3 * height);
@@ -142,7 +151,7 @@ Plot frontPlot() {
   plot.xLabel = "time [s]";
   plot.yLabel = "height of the front above the water [mm]";
   plot.xScale = plot.yScale = Plot::Scale::logarithmic;
-  plot.xRange = "[1:3600]";
+  plot.xRange = "[5:10000]";
   plot.yRange = "[1:300]";
   plot.keyPlace = "top left";
   PlotSeries level = frontOf(false);
@@ -160,7 +169,7 @@ Plot frontPlot() {
 
 std::vector<Plot> wickingPlots(const PlotProgress& progress) {
   std::vector<Plot> plots;
-  plots.push_back(profilePlot([&](double fraction) { progress(0.4 * fraction); }));
+  plots.push_back(profilePlot([&](double fraction) { progress(0.8 * fraction); }));
   plots.push_back(frontPlot());
   progress(1);
   return plots;

@@ -166,13 +166,14 @@ TEST(Plot, TheStripWicksToItsEquilibriumAndItsFrontAsTheSquareRootOfTime) {
   ASSERT_EQ(runWithGnuplot("", {"plot", "wicking", "--out", directory.path("p")}).status, 0);
   const Table profile = readTable(directory.path("p/wicking.csv"));
   EXPECT_EQ(profile.head, "series;height_mm;saturation");
-  const Curve& late = profile.curves.at("3600 s");
+  const Curve& late = profile.curves.at("28800 s");
   for (const auto& [height, saturation] : late) {
-    if (height > 0) EXPECT_NEAR(saturation, std::exp(-height / 100), 0.02) << height;  // D / v = 0.1 m
+    if (height < 0 || height > 100) continue;  // higher up, eight hours are too few
+    EXPECT_NEAR(saturation, std::exp(-height / 100), 0.02) << height;  // D / v = 0.1 m
   }
   for (const double height : {20.0, 80.0, 150.0}) {
     double before = 0;
-    for (const char* const time : {"15 s", "60 s", "240 s", "900 s", "3600 s"}) {
+    for (const char* const time : {"60 s", "300 s", "1200 s", "5400 s", "28800 s"}) {
       const double now = at(profile.curves.at(time), height);
       EXPECT_GE(now, before) << time << ' ' << height;
       before = now;
@@ -180,8 +181,10 @@ TEST(Plot, TheStripWicksToItsEquilibriumAndItsFrontAsTheSquareRootOfTime) {
   }
   const Table front = readTable(directory.path("p/wicking_front.csv"));
   const Curve& free = front.curves.at("without gravity");
-  EXPECT_NEAR(at(free, 1200) / at(free, 300), 2, 0.1);
-  EXPECT_LT(at(front.curves.at("upright"), 1200), at(free, 1200));
+  // The end must soak first, so the front is late and makes up for it.
+  EXPECT_NEAR(at(free, 4000) / at(free, 1000), 2, 0.15);
+  EXPECT_NEAR(at(free, 5000) / at(front.curves.at("Washburn"), 5000), 1, 0.06);
+  EXPECT_LT(at(front.curves.at("upright"), 4000), at(free, 4000));
 }
 
 TEST(Plot, SpringsAreThePapersOfItsThreeKinds) {
