@@ -72,5 +72,5 @@ int main() {
   wet.debugDraw(drawer);
   std::printf("The debug drawer got %d triangles and %d lines of wind.\n", drawer.triangles, drawer.lines);
   world.removeSoftBody(body.get());
-  return middle.colour[0] < 0.5F && drawer.triangles == body->m_faces.size() && drawer.lines > 0 ? 0 : 1;
+  return middle.roughness < 0.6F && drawer.triangles == body->m_faces.size() && drawer.lines > 0 ? 0 : 1;
 }

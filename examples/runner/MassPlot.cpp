@@ -46,7 +46,8 @@ PlotSeries tableII() {
 PlotSeries equation2(const wetcloth::Fabric& fabric) {
   PlotSeries series{"Eq. 2", "the paper's Eq. 2, 0.84 g per gram", PlotSeries::Mark::reference, plot_colours::black, {},
                     {}};
-  for (double time = 0; time <= duration; time += 0.25) {
+  for (int i = 0; i <= 200; ++i) {
+    const double time = duration * i / 200;
     series.add(time, dryGrams * (1 - fabric.capacity * std::expm1(-time / fabric.timeConstant)));
   }
   return series;

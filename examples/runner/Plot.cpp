@@ -62,8 +62,8 @@ std::string gnuplotScript(const Plot& plot, const std::string& csv, const std::s
   script += "set title " + quoted(plot.title) + "\n";
   script += "set xlabel " + quoted(plot.xLabel) + "\nset ylabel " + quoted(plot.yLabel) + "\n";
   script += "set xrange " + plot.xRange + "\nset yrange " + plot.yRange + "\n";
-  script +=
-      "set key " + plot.keyPlace + " Left reverse samplen 2.5 spacing 1.2 width -2 box linecolor rgb '#cccccc' opaque\n";
+  script += "set key " + plot.keyPlace +
+            " Left reverse samplen 2.5 spacing 1.2 width -2 box linecolor rgb '#cccccc' opaque\n";
   script += "set format '%g'\n";
   if (plot.xScale == Plot::Scale::logarithmic) script += "set logscale x\n";
   if (plot.yScale == Plot::Scale::logarithmic) script += "set logscale y\n";

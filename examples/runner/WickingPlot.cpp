@@ -116,10 +116,17 @@ Plot profilePlot(const PlotProgress& progress) {
   return plot;
 }
 
+/// Evenly spaced on the axis of their plot [s].
+std::vector<double> frontTimes() {
+  std::vector<double> times{5};
+  while (times.back() < 8000) times.push_back(1.12 * times.back());
+  return times;
+}
+
 PlotSeries frontOf(bool feelsGravity) {
   PlotSeries series;
   Strip strip(feelsGravity);
-  for (double next = 5; next <= 9000; next *= 1.12) {
+  for (const double next : frontTimes()) {
     while (strip.time() < next - step / 2) strip.advance();
     if (strip.front() >= strip.height(strip.rows() - 1)) break;
     series.add(strip.time(), 1e3 * strip.front());
@@ -134,7 +141,7 @@ constexpr double washburnFactor = 1.0880;
 PlotSeries washburn() {
   PlotSeries series{
       "Washburn", "front as sqrt(t) (Washburn 1921)", PlotSeries::Mark::reference, plot_colours::black, {}, {}};
-  for (double time = 5; time <= 9000; time *= 1.12) {
+  for (const double time : frontTimes()) {
     const double height = washburnFactor * std::sqrt(wetcloth::Diffusion::Parameters{}.weftDiffusivity * time);
     if (height > length - dipped) break;
     series.add(time, 1e3 * height);
