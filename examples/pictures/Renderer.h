@@ -1,15 +1,14 @@
 #pragma once
 
+#include "Colouring.h"
 #include "Recording.h"
 #include "View.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace pictures {
-
-/// What the colours of a cloth mean.
-enum class Colouring { fabric, saturation, stretch, speed };
 
 /// Draws scenes with OpenGL 3.3 core: cloth lit from both sides, wet parts darker, more saturated and glossier, with a
 /// weave that shows stretch; colliders, water, drops; soft shadows on the ground.
@@ -33,10 +32,14 @@ class Renderer {
 
   void setColouring(Colouring colouring);
   Colouring colouring() const;
+  /// Makes the colour bar reach to the values of a frame, before any is drawn; draw() does it for the frame it draws.
+  void includeInColourBar(const Frame& frame);
 
   /// Draws into the current framebuffer; the area is cleared first.
   /// @param frame  of the same cloths
   void draw(const Frame& frame, const View& view, const Area& area);
+  /// Writes a line at the foot of an area that has been drawn: one text on its left, one on its right.
+  void write(const std::string& left, const std::string& right, const Area& area);
 
  private:
   class Parts;

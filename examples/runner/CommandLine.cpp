@@ -4,6 +4,7 @@
 #include "CcdMethod.h"
 #include "CostCommand.h"
 #include "Errors.h"
+#include "ExportCommand.h"
 #include "FallCommand.h"
 #include "NearestWord.h"
 #include "PlotCommand.h"
@@ -32,6 +33,7 @@ const char* const examples = R"(Examples:
   wetcloth run curtain.json --quality accurate --json result.json
   wetcloth cost flag_wind_100.json                      what each effect of a scene takes, beside Bullet's step
   wetcloth plot fall --out plots                        the wet and the dry fall as CSV, SVG and PNG
+  wetcloth export curtain.json --format vtk --out curtain   for ParaView; for Blender, Houdini, ... see --help
   wetcloth validate *.json                              check scenes without running them
   wetcloth ccd queries.csv.gz --method exact            collision checks against exact answers
 
@@ -72,10 +74,6 @@ void addRun(CLI::App& app, RunOptions& options, char** arguments) {
   run->add_option("--precision", options.precision, "Instead of the scene's own")
       ->check(oneOf("--precision", namesOf(precisionNames())));
   run->callback([&options, arguments] {
-    if (options.duration && !(*options.duration > 0 && *options.duration <= 3600)) {
-      throw InputError("wetcloth: --duration = " + CLI::detail::to_string(*options.duration) +
-                       ": must be in (0, 3600] s");
-    }
     if (options.frameCount < 1 || options.frameCount > 10000) {
       throw InputError("wetcloth: --frame-count = " + std::to_string(options.frameCount) + ": must be 1 to 10000");
     }
@@ -127,6 +125,25 @@ void addPlot(CLI::App& app, PlotOptions& options) {
   plot->add_option("--out", options.directory, "Directory for the files, made if it is not there")->required();
   plot->add_option("--json", options.json, "File for what was made as JSON; - is standard output, with nothing else");
   plot->callback([&options] { makePlots(options); });
+}
+
+void addExport(CLI::App& app, ExportOptions& options, char** arguments) {
+  CLI::App* const command = app.add_subcommand("export", "Run a scene and write it for other programs");
+  command->add_option("scene", options.scene, "Scene file (JSON, see docs/scenes.md)")->required();
+  command->add_option("--format", options.format, exportFormatsExplained())
+      ->check(oneOf("--format", exportFormats()))
+      ->required();
+  command->add_option("--out", options.out, "File, which is replaced, or folder, which must be new or empty")
+      ->required();
+  command->add_option("--fps", options.framesPerSecond, "Frames per simulated second")->capture_default_str();
+  command->add_option("--duration", options.duration, "Simulated time [s], instead of the scene's own");
+  command->add_option("--quality", options.quality, "Substeps and iterations, as for `wetcloth run`")
+      ->check(oneOf("--quality", namesOf(qualityNames())))
+      ->capture_default_str();
+  command->add_option("--precision", options.precision, "Instead of the scene's own")
+      ->check(oneOf("--precision", namesOf(precisionNames())));
+  command->add_option("--json", options.json, "File for what was written as JSON; - is standard output, and only that");
+  command->callback([&options, arguments] { exportScene(options, arguments); });
 }
 
 void addValidate(CLI::App& app, std::vector<std::string>& files) {
@@ -200,11 +217,13 @@ int runCommandLine(int count, char** arguments) {
   CostOptions cost;
   CcdOptions ccd;
   PlotOptions plot;
+  ExportOptions exported;
   std::vector<std::string> files;
   addRun(app, run, arguments);
   addFall(app, fall, arguments);
   addCost(app, cost, arguments);
   addPlot(app, plot);
+  addExport(app, exported, arguments);
   addValidate(app, files);
   addCcd(app, ccd, arguments);
   try {

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "ShadowMap.h"
+
+#include "../Matrix4.h"
+#include "../Recording.h"
+#include "../View.h"
+
+#include <array>
+
+namespace pictures {
+
+/// What all shaders of a picture know: the block `Picture` of common.glsl, laid out as std140 wants it.
+struct PictureUniforms {
+  using Vector4 = std::array<float, 4>;
+
+  Matrix4 clipFromWorld{};
+  Matrix4 shadowFromWorld{};
+  Vector4 eye{};
+  Vector4 towardsLamp{};
+  Vector4 up{};
+  Vector4 right{};
+  Vector4 above{};
+  Vector4 forward{};
+  Vector4 shadow{};
+};
+
+/// A ball around all that is to be seen but the ground and the sky.
+struct Extent {
+  Vector3 middle{};
+  float radius = 1;  ///< [m]
+};
+
+/// Sets what depends on the camera.
+/// @param aspect  width over height of the picture
+void look(PictureUniforms& uniforms, const View& view, float aspect, const Extent& extent);
+
+Vector3 eyeOf(const PictureUniforms& uniforms);
+
+/// Where a point is seen: to the right and upwards, -1 to 1 in the picture, and its distance along the view [m].
+Vector3 placeInPicture(const PictureUniforms& uniforms, const Vector3& point);
+
+/// By how much the depth of something in the middle of the extent grows when it is moved away from the eye.
+/// @param distance  moved [m]
+float depthStep(const PictureUniforms& uniforms, const Extent& extent, float distance);
+
+}  // namespace pictures

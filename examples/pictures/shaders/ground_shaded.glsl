@@ -1,0 +1,1 @@
+float lampShare(vec3 at) { return softlyLit(at); }

@@ -1,0 +1,150 @@
+#include "RecordRun.h"
+
+#include "Errors.h"
+#include "FiniteState.h"
+#include "Progress.h"
+#include "Recorder.h"
+#include "RunSeries.h"
+#include "SceneWorld.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace runner {
+namespace {
+
+using pictures::ClothState;
+using pictures::Frame;
+
+constexpr double roundOff = 0.01;  // of a step: scenes write 1/60 s in decimals
+
+/// A state of the run, and what its series say of it.
+struct Sample {
+  Frame frame;
+  std::vector<double> numbers;
+};
+
+float mix(float a, float b, double share) { return a + static_cast<float>(share) * (b - a); }
+
+std::vector<float> mix(const std::vector<float>& a, const std::vector<float>& b, double share) {
+  std::vector<float> mixed(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) mixed[i] = mix(a[i], b[i], share);
+  return mixed;
+}
+
+ClothState mix(const ClothState& a, const ClothState& b, double share) {
+  ClothState mixed;
+  mixed.positions.resize(a.positions.size());
+  for (std::size_t i = 0; i < a.positions.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      mixed.positions[i][axis] = mix(a.positions[i][axis], b.positions[i][axis], share);
+    }
+  }
+  mixed.saturation = mix(a.saturation, b.saturation, share);
+  mixed.stretch = mix(a.stretch, b.stretch, share);
+  mixed.speed = mix(a.speed, b.speed, share);
+  return mixed;
+}
+
+/// Between two steps. Drops come and go, so they are those of the later one.
+Sample mix(const Sample& a, const Sample& b, double share) {
+  Sample mixed;
+  for (std::size_t i = 0; i < a.frame.cloths.size(); ++i) {
+    mixed.frame.cloths.push_back(mix(a.frame.cloths[i], b.frame.cloths[i], share));
+  }
+  mixed.frame.drops = b.frame.drops;
+  for (std::size_t i = 0; i < a.numbers.size(); ++i) {
+    mixed.numbers.push_back(a.numbers[i] + share * (b.numbers[i] - a.numbers[i]));
+  }
+  return mixed;
+}
+
+/// Takes frames from a run at times of their own.
+class Sampler {
+ public:
+  Sampler(const Scene& scene, int steps, double framesPerSecond)
+      : m_stepsPerFrame(1 / (framesPerSecond * scene.step)),
+        m_secondsPerFrame(1 / framesPerSecond),
+        m_count(static_cast<int>((steps + roundOff) / m_stepsPerFrame) + 1) {
+    m_recording.series = runSeries();
+  }
+
+  int count() const { return m_count; }
+  pictures::Recording& recording() { return m_recording; }
+
+  /// After step 0, 1, 2, ...
+  void offer(const SceneWorld& world, const Recorder& recorder, int step) {
+    std::swap(m_before, m_now);
+    recorder.take(world, step * world.scene().step, m_now.frame);
+    m_now.numbers = measureRun(world, m_now.frame);
+    for (; taken() < m_count && taken() * m_stepsPerFrame <= step + roundOff;) {
+      const double late = step - taken() * m_stepsPerFrame;  // [steps]
+      keep(late < roundOff ? m_now : mix(m_before, m_now, 1 - late));
+    }
+  }
+
+ private:
+  int taken() const { return static_cast<int>(m_recording.frames.size()); }
+
+  void keep(const Sample& sample) {
+    const double time = taken() * m_secondsPerFrame;
+    m_recording.frames.push_back(sample.frame);
+    m_recording.frames.back().time = time;
+    for (std::size_t i = 0; i < sample.numbers.size(); ++i) m_recording.series[i].values.push_back(sample.numbers[i]);
+  }
+
+  double m_stepsPerFrame;
+  double m_secondsPerFrame;
+  int m_count;
+  Sample m_before;
+  Sample m_now;
+  pictures::Recording m_recording;
+};
+
+void requireMemory(const Scene& scene, double frames) {
+  constexpr double bytesPerNode = 24;
+  constexpr double most = 2e9;  // [bytes]
+  double nodes = 0;
+  for (const ClothScene& cloth : scene.cloths) nodes += cloth.nodeCount();
+  if (frames * nodes * bytesPerNode <= most) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                ": %.0f frames of %.0f nodes are %.1f GB, must be at most %.0f GB: take fewer frames per second, or a "
+                "shorter --duration",
+                frames, nodes, frames * nodes * bytesPerNode / 1e9, most / 1e9);
+  throw InputError(scene.file + text);
+}
+
+void dropZeros(std::vector<pictures::Series>& series) {
+  const auto isZero = [](const pictures::Series& one) {
+    return std::all_of(one.values.begin(), one.values.end(), [](double value) { return value == 0; });
+  };
+  series.erase(std::remove_if(series.begin(), series.end(), isZero), series.end());
+}
+
+}  // namespace
+
+pictures::Recording recordRun(const Scene& scene, double framesPerSecond) {
+  const int steps = std::max(1, static_cast<int>(std::lround(scene.duration / scene.step)));
+  requireMemory(scene, steps * scene.step * framesPerSecond);
+  SceneWorld world(scene);
+  const Recorder recorder(world);
+  Sampler sampler(scene, steps, framesPerSecond);
+  Progress progress("running " + scene.name);
+  sampler.offer(world, recorder, 0);
+  for (int step = 1; step <= steps; ++step) {
+    world.step();
+    requireFinite(world, step);
+    sampler.offer(world, recorder, step);
+    progress.update(static_cast<double>(step) / steps);
+  }
+  pictures::Recording& recording = sampler.recording();
+  recording.scenery = recorder.scenery();
+  recording.cloths = recorder.cloths();
+  dropZeros(recording.series);
+  return std::move(recording);
+}
+
+}  // namespace runner
