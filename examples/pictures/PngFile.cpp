@@ -1,8 +1,7 @@
 #include "PngFile.h"
 
-#include "FileAside.h"
+#include "OutputFile.h"
 
-#include <fstream>
 #include <stdexcept>
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -19,17 +18,15 @@
 
 namespace pictures {
 
-void writePng(const std::string& file, const Image& image) {
-  FileAside aside(file);
-  std::ofstream stream(aside.path(), std::ios::binary | std::ios::trunc);
-  const auto append = [](void* context, void* bytes, int count) {
-    static_cast<std::ofstream*>(context)->write(static_cast<const char*>(bytes), count);
+void writePng(const std::string& path, const Image& image) {
+  OutputFile file(path);
+  const auto append = [](void* stream, void* bytes, int count) {
+    static_cast<std::ostream*>(stream)->write(static_cast<const char*>(bytes), count);
   };
   const int isEncoded =
-      stbi_write_png_to_func(append, &stream, image.width, image.height, 3, image.rgb.data(), 3 * image.width);
-  stream.close();
-  if (isEncoded == 0 || !stream) throw std::runtime_error("could not be written");
-  aside.finish();
+      stbi_write_png_to_func(append, &file.stream(), image.width, image.height, 3, image.rgb.data(), 3 * image.width);
+  if (isEncoded == 0) throw std::runtime_error("the picture is too large for memory");
+  file.close();
 }
 
 }  // namespace pictures

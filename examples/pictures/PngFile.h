@@ -6,8 +6,7 @@
 
 namespace pictures {
 
-/// Writes a picture as PNG. Throws std::runtime_error when it cannot; then there is no file of the name, or the one
-/// that was there before.
-void writePng(const std::string& file, const Image& image);
+/// Writes a picture as PNG. Throws std::runtime_error that says why when it cannot.
+void writePng(const std::string& path, const Image& image);
 
 }  // namespace pictures

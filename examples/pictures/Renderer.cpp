@@ -125,6 +125,7 @@ class Renderer::Parts {
 
   void draw(const Frame& frame, const View& view, const Area& area);
   void write(const std::string& left, const std::string& right, const Area& area);
+  void writeHead(const std::string& text, const Area& area);
 
   ColourScale scale{Colouring::fabric};
 
@@ -419,7 +420,6 @@ void Renderer::Parts::draw(const Frame& frame, const View& view, const Area& are
 }
 
 void Renderer::Parts::write(const std::string& left, const std::string& right, const Area& area) {
-  const Overlay::Tint ink{0.16F, 0.20F, 0.25F, 1};
   const auto width = static_cast<float>(area.width);
   const auto height = static_cast<float>(area.height);
   glViewport(area.x, area.y, area.width, area.height);
@@ -427,6 +427,15 @@ void Renderer::Parts::write(const std::string& left, const std::string& right, c
   const float margin = 1.2F * m_overlay.textSize();
   m_overlay.addText(margin, height - margin, left, ink);
   m_overlay.addText(width - margin - m_overlay.widthOf(right), height - margin, right, ink);
+  m_overlay.draw(width, height);
+}
+
+void Renderer::Parts::writeHead(const std::string& text, const Area& area) {
+  const auto width = static_cast<float>(area.width);
+  const auto height = static_cast<float>(area.height);
+  glViewport(area.x, area.y, area.width, area.height);
+  m_overlay.setTextSize(1.15F * textSizeFor(width, height));
+  m_overlay.addText(0.5F * (width - m_overlay.widthOf(text)), 1.9F * m_overlay.textSize(), text, ink);
   m_overlay.draw(width, height);
 }
 
@@ -448,5 +457,7 @@ void Renderer::draw(const Frame& frame, const View& view, const Area& area) { m_
 void Renderer::write(const std::string& left, const std::string& right, const Area& area) {
   m_parts->write(left, right, area);
 }
+
+void Renderer::writeHead(const std::string& text, const Area& area) { m_parts->writeHead(text, area); }
 
 }  // namespace pictures

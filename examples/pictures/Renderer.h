@@ -40,6 +40,8 @@ class Renderer {
   void draw(const Frame& frame, const View& view, const Area& area);
   /// Writes a line at the foot of an area that has been drawn: one text on its left, one on its right.
   void write(const std::string& left, const std::string& right, const Area& area);
+  /// Writes a line at the head of an area, in its middle.
+  void writeHead(const std::string& text, const Area& area);
 
  private:
   class Parts;

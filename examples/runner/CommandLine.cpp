@@ -8,6 +8,7 @@
 #include "FallCommand.h"
 #include "NearestWord.h"
 #include "PlotCommand.h"
+#include "RenderCommand.h"
 #include "RunCommand.h"
 #include "ValidateCommand.h"
 
@@ -31,6 +32,9 @@ const char* const examples = R"(Examples:
   wetcloth run hanging_towel.json                       run a scene and say what came of it
   wetcloth run flag_wind_100.json --frames pictures     and paint it: pictures/frame_0000.svg, ...
   wetcloth run curtain.json --quality accurate --json result.json
+  wetcloth render flag_wind_100.json --out flag.mp4     a film; .png, .gif, .webm as well; needs no display
+  wetcloth render dip_and_lift.json --out dip.png --times 0,3,6,9 --size 480x640    a strip of pictures
+  wetcloth render hanging_towel.json --out towel.mp4 --compare    plain Bullet, dry and wet side by side
   wetcloth cost flag_wind_100.json                      what each effect of a scene takes, beside Bullet's step
   wetcloth plot fall --out plots                        the wet and the dry fall as CSV, SVG and PNG
   wetcloth export curtain.json --format vtk --out curtain   for ParaView; for Blender, Houdini, ... see --help
@@ -79,6 +83,37 @@ void addRun(CLI::App& app, RunOptions& options, char** arguments) {
     }
     runScene(options, arguments);
   });
+}
+
+void addRender(CLI::App& app, RenderOptions& options, char** arguments) {
+  CLI::App* const render = app.add_subcommand("render", "Run a scene and draw pictures or a film, without a display");
+  render->add_option("scene", options.scene, "Scene file (JSON, see docs/scenes.md)")->required();
+  render->add_option("--out", options.out, "File, which is replaced; its suffix chooses: " + joined(renderSuffixes()))
+      ->required();
+  render->add_option("--size", options.size,
+                     "WIDTHxHEIGHT of the film or of each picture [pixels]; default 1280x720, for a .gif 640x360");
+  render->add_option("--times", options.times, "Of a .png: when [s]; several give a strip; default is the end")
+      ->delimiter(',');
+  render->add_option("--fps", options.framesPerSecond, "Of a film: pictures per second; default 30, for a .gif 25");
+  render->add_option("--speed", options.speed, "Of a film: simulated seconds per second of film; 0.25 is slow motion")
+      ->capture_default_str();
+  render->add_option("--view", options.view, "X,Y,Z: what the camera looks along, instead of the scene's own direction")
+      ->delimiter(',')
+      ->expected(3);
+  render->add_option("--orbit", options.orbit, "Turns the camera about the upright [degrees]")->capture_default_str();
+  render->add_option("--field-of-view", options.fieldOfView, "Of the camera, vertical [degrees]");
+  render->add_option("--colouring", options.colouring, "What the colours of a cloth show; all but fabric with a bar")
+      ->check(oneOf("--colouring", colouringNames()))
+      ->capture_default_str();
+  render->add_flag("--compare", options.compare, "Plain Bullet, the dry scene and the wet one side by side");
+  render->add_option("--duration", options.duration, "Simulated time [s], instead of the scene's own");
+  render->add_option("--quality", options.quality, "Substeps and iterations, as for `wetcloth run`")
+      ->check(oneOf("--quality", namesOf(qualityNames())))
+      ->capture_default_str();
+  render->add_option("--precision", options.precision, "Instead of the scene's own")
+      ->check(oneOf("--precision", namesOf(precisionNames())));
+  render->add_option("--json", options.json, "File for what was drawn as JSON; - is standard output, and only that");
+  render->callback([&options, arguments] { renderScene(options, arguments); });
 }
 
 void addFall(CLI::App& app, FallOptions& options, char** arguments) {
@@ -218,8 +253,10 @@ int runCommandLine(int count, char** arguments) {
   CcdOptions ccd;
   PlotOptions plot;
   ExportOptions exported;
+  RenderOptions render;
   std::vector<std::string> files;
   addRun(app, run, arguments);
+  addRender(app, render, arguments);
   addFall(app, fall, arguments);
   addCost(app, cost, arguments);
   addPlot(app, plot);

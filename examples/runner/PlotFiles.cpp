@@ -39,7 +39,7 @@ void PlotFiles::write(const Plot& plot) {
   publish(csv);
   if (!m_hasPictures) return;
   writeAside("script.gnuplot", gnuplotScript(plot, (m_directory / csv).string(), aside(svg), aside(png)));
-  m_hasPictures = runGnuplot(aside("script.gnuplot"), aside("gnuplot.log"));
+  m_hasPictures = runGnuplot(aside("script.gnuplot"));
   if (!m_hasPictures) return;
   publish(svg);
   publish(png);

@@ -1,5 +1,6 @@
 #include "Progress.h"
 
+#include <cstddef>
 #include <cstdio>
 #include <utility>
 
@@ -16,10 +17,24 @@ namespace runner {
 Progress::Progress(std::string task)
     : m_task(std::move(task)),
       m_onTerminal(isatty(fileno(stderr)) != 0),
-      m_next(Clock::now() + std::chrono::seconds(2)) {}
+      m_start(Clock::now()),
+      m_next(m_start + std::chrono::seconds(2)) {}
 
 Progress::~Progress() {
   if (m_shown && m_onTerminal) std::fputs("\r\033[K", stderr);
+}
+
+std::string Progress::timeLeft(double fraction, Clock::time_point now) const {
+  if (!(fraction > 0)) return "";
+  const double taken = std::chrono::duration<double>(now - m_start).count();
+  const int seconds = static_cast<int>(taken * (1 - fraction) / fraction + 0.5);
+  char text[48];
+  if (seconds < 60) {
+    std::snprintf(text, sizeof text, ", %d s left", seconds);
+  } else {
+    std::snprintf(text, sizeof text, ", %d min %02d s left", seconds / 60, seconds % 60);
+  }
+  return text;
 }
 
 void Progress::update(double fraction) {
@@ -27,8 +42,16 @@ void Progress::update(double fraction) {
   if (now < m_next) return;
   m_next = now + (m_onTerminal ? std::chrono::milliseconds(100) : std::chrono::milliseconds(5000));
   m_shown = true;
-  const char* const format = m_onTerminal ? "\r%s: %3.0f %%\033[K" : "%s: %3.0f %%\n";
-  std::fprintf(stderr, format, m_task.c_str(), 100 * fraction);
+  const std::string left = timeLeft(fraction, now);
+  if (m_onTerminal) {
+    constexpr int width = 24;
+    const int done = static_cast<int>(fraction * width);
+    const std::string bar =
+        std::string(static_cast<std::size_t>(done), '#') + std::string(static_cast<std::size_t>(width - done), '.');
+    std::fprintf(stderr, "\r%s [%s] %.0f %%%s\033[K", m_task.c_str(), bar.c_str(), 100 * fraction, left.c_str());
+  } else {
+    std::fprintf(stderr, "%s: %3.0f %%%s\n", m_task.c_str(), 100 * fraction, left.c_str());
+  }
   std::fflush(stderr);
 }
 

@@ -5,8 +5,8 @@
 
 namespace runner {
 
-/// Says on standard error how far a long task is, once it has taken more than two seconds: one line that is
-/// rewritten on a terminal, a line now and then elsewhere.
+/// Says on standard error how far a long task is and how much longer it will take, once it has taken more than two
+/// seconds: one line with a bar, rewritten, on a terminal; a line now and then elsewhere.
 class Progress {
  public:
   explicit Progress(std::string task);
@@ -20,9 +20,12 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
 
+  std::string timeLeft(double fraction, Clock::time_point now) const;
+
   std::string m_task;
   bool m_onTerminal;
   bool m_shown = false;
+  Clock::time_point m_start;
   Clock::time_point m_next;
 };
 

@@ -64,44 +64,45 @@ Sample mix(const Sample& a, const Sample& b, double share) {
 /// Takes frames from a run at times of their own.
 class Sampler {
  public:
-  Sampler(const Scene& scene, int steps, double framesPerSecond)
-      : m_stepsPerFrame(1 / (framesPerSecond * scene.step)),
-        m_secondsPerFrame(1 / framesPerSecond),
-        m_count(static_cast<int>((steps + roundOff) / m_stepsPerFrame) + 1) {
+  /// @param steps  of the run: frames later than the last step are taken after it
+  Sampler(const std::vector<double>& times, double secondsPerStep, int steps)
+      : m_times(times), m_secondsPerStep(secondsPerStep), m_steps(steps) {
     m_recording.series = runSeries();
   }
 
-  int count() const { return m_count; }
   pictures::Recording& recording() { return m_recording; }
 
   /// After step 0, 1, 2, ...
   void offer(const SceneWorld& world, const Recorder& recorder, int step) {
     std::swap(m_before, m_now);
-    recorder.take(world, step * world.scene().step, m_now.frame);
+    recorder.take(world, step * m_secondsPerStep, m_now.frame);
     m_now.numbers = measureRun(world, m_now.frame);
-    for (; taken() < m_count && taken() * m_stepsPerFrame <= step + roundOff;) {
-      const double late = step - taken() * m_stepsPerFrame;  // [steps]
+    for (; taken() < m_times.size() && stepsUntil(m_times[taken()]) <= step + roundOff;) {
+      const double late = step - stepsUntil(m_times[taken()]);  // [steps]
       keep(late < roundOff ? m_now : mix(m_before, m_now, 1 - late));
     }
   }
 
  private:
-  int taken() const { return static_cast<int>(m_recording.frames.size()); }
+  std::size_t taken() const { return m_recording.frames.size(); }
+  double stepsUntil(double time) const { return std::min(time / m_secondsPerStep, static_cast<double>(m_steps)); }
 
   void keep(const Sample& sample) {
-    const double time = taken() * m_secondsPerFrame;
+    const double time = m_times[taken()];
     m_recording.frames.push_back(sample.frame);
     m_recording.frames.back().time = time;
     for (std::size_t i = 0; i < sample.numbers.size(); ++i) m_recording.series[i].values.push_back(sample.numbers[i]);
   }
 
-  double m_stepsPerFrame;
-  double m_secondsPerFrame;
-  int m_count;
+  const std::vector<double>& m_times;
+  double m_secondsPerStep;
+  int m_steps;
   Sample m_before;
   Sample m_now;
   pictures::Recording m_recording;
 };
+
+int stepsOf(const Scene& scene) { return std::max(1, static_cast<int>(std::lround(scene.duration / scene.step))); }
 
 void requireMemory(const Scene& scene, double frames) {
   constexpr double bytesPerNode = 24;
@@ -126,25 +127,35 @@ void dropZeros(std::vector<pictures::Series>& series) {
 
 }  // namespace
 
-pictures::Recording recordRun(const Scene& scene, double framesPerSecond) {
-  const int steps = std::max(1, static_cast<int>(std::lround(scene.duration / scene.step)));
-  requireMemory(scene, steps * scene.step * framesPerSecond);
-  SceneWorld world(scene);
+pictures::Recording recordRun(const Scene& scene, const std::vector<double>& times, SceneWorld::Kind kind) {
+  requireMemory(scene, static_cast<double>(times.size()));
+  const int steps = stepsOf(scene);
+  SceneWorld world(scene, kind);
   const Recorder recorder(world);
-  Sampler sampler(scene, steps, framesPerSecond);
+  Sampler sampler(times, scene.step, steps);
   Progress progress("running " + scene.name);
   sampler.offer(world, recorder, 0);
-  for (int step = 1; step <= steps; ++step) {
+  const int lastStep = std::min(steps, static_cast<int>(std::ceil(times.back() / scene.step - roundOff)));
+  for (int step = 1; step <= lastStep; ++step) {
     world.step();
     requireFinite(world, step);
     sampler.offer(world, recorder, step);
-    progress.update(static_cast<double>(step) / steps);
+    progress.update(static_cast<double>(step) / lastStep);
   }
   pictures::Recording& recording = sampler.recording();
   recording.scenery = recorder.scenery();
   recording.cloths = recorder.cloths();
   dropZeros(recording.series);
   return std::move(recording);
+}
+
+pictures::Recording recordRun(const Scene& scene, double framesPerSecond) {
+  const double end = stepsOf(scene) * scene.step;
+  requireMemory(scene, end * framesPerSecond);
+  const int count = static_cast<int>((end + roundOff * scene.step) * framesPerSecond) + 1;
+  std::vector<double> times;
+  for (int i = 0; i < count; ++i) times.push_back(i / framesPerSecond);
+  return recordRun(scene, times);
 }
 
 }  // namespace runner

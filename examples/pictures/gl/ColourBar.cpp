@@ -14,7 +14,6 @@ float textSizeFor(float areaWidth, float areaHeight) {
 }
 
 void drawColourBar(Overlay& overlay, const ColourScale& scale, float areaWidth, float areaHeight) {
-  const Overlay::Tint ink{0.16F, 0.20F, 0.25F, 1};
   overlay.setTextSize(textSizeFor(areaWidth, areaHeight));
   const float em = overlay.textSize();
   const std::vector<std::string> labels = scale.labels();

@@ -6,6 +6,9 @@
 
 namespace pictures {
 
+/// Colour of text.
+constexpr Overlay::Tint ink{0.16F, 0.20F, 0.25F, 1};
+
 /// Size of the text in a picture [pixels].
 float textSizeFor(float areaWidth, float areaHeight);
 
