@@ -60,8 +60,9 @@ void ShadowMap::fit(const std::vector<Vector3>& points, const Vector3& towardsLa
     low[i] = middle - 0.5F * m_width;
     high[i] = middle + 0.5F * m_width;
   }
-  low[2] -= 0.05F * m_width;
-  high[2] += 0.05F * m_width;
+  low[2] -= 0.1F * m_width;
+  high[2] += 0.1F * m_width;
+  m_depth = high[2] - low[2];
   m_clipFromWorld = product(orthographic(low, high), lookFrom({0, 0, 0}, m_right, m_up, towardsLamp * -1));
 }
 

@@ -37,7 +37,9 @@ class ShadowMap {
   std::optional<Footprint> footprintOn(const Ground& ground) const;
   /// Width of what the map shows [m].
   float width() const { return m_width; }
-  static constexpr int texels = 1024;  ///< on each side
+  static constexpr int texels = 512;  ///< on each side
+  /// By how much depth grows over a distance [m] away from the lamp.
+  float depthStep(float distance) const { return 2 * distance / m_depth; }
   void bind(GLuint unit) const;
 
  private:
@@ -51,6 +53,7 @@ class ShadowMap {
   Vector3 m_low{};  // of what casts shadows, along these three [m]
   Vector3 m_high{};
   float m_width = 1;
+  float m_depth = 1;  // [m]
 };
 
 }  // namespace pictures

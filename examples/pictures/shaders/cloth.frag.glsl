@@ -30,15 +30,15 @@ void main() {
     facing = -facing;
   }
   float wet = clamp(saturation, 0.0, 1.0);
-  vec3 albedo = mix(dryColour, wetColour, wet) * pattern();
-  float lamp = lampShare(normal);
-  float rough = mix(roughness.x, roughness.y, wet);
+  float threads = pattern();
+  vec3 albedo = mix(dryColour, wetColour, wet) * threads;
+  float lamp = lit(place, normal);
+  float rough = max(mix(roughness.x, roughness.y, wet), 0.38);  // threads and folds finer than the mesh
   float rim = 1.0 - facing;
-  float fresnel = rim * rim * rim;
-  vec3 light = albedo * diffuse(normal, lamp, 0.35);
+  float fuzz = rim * rim * rim;
+  vec3 light = albedo * (diffuse(normal, lamp, 0.30) + 0.22 * fuzz * (1.0 - wet));
   float shine = gloss(normal, towardsEye, rough) * max(dot(normal, towardsLamp.xyz), 0.0) * lamp;
-  light += lampColour * (shine * (0.6 + 2.4 * wet));
-  light += albedo * (0.22 * fresnel * (1.0 - wet));                                    // fuzz of dry fibres
-  light += sky(reflect(-towardsEye, normal)) * (wet * wet * (0.012 + 0.22 * fresnel));  // film of water
+  light += lampColour * (shine * threads * (0.5 + 0.4 * wet));
+  light += sky(reflect(-towardsEye, normal)) * (wet * wet * (0.006 + 0.10 * fuzz * rim * rim));  // film of water
   colour = vec4(encoded(light), 1);
 }

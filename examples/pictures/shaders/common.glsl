@@ -10,5 +10,5 @@ layout(std140) uniform Picture {
   vec4 right;            // of the camera; w: tangent of half its angle
   vec4 above;            // of the camera; w: tangent of half its angle
   vec4 forward;          // of the camera; w: simulated time [s]
-  vec4 shadow;           // x: size of a texel of the shadow map [m], y: radius of the soft edge over the map's size
+  vec4 shadow;           // of its soft edge, x: the width [m], y: the same over the shadow map's size
 };

@@ -1,8 +1,8 @@
 uniform sampler2DShadow shadowMap;
 
 const vec3 lampColour = vec3(1.06, 1.0, 0.92);
-const vec3 skyLight = vec3(0.29, 0.32, 0.36);     // from above
-const vec3 groundLight = vec3(0.20, 0.185, 0.17);  // from below
+const vec3 skyLight = vec3(0.25, 0.28, 0.32);      // from above
+const vec3 groundLight = vec3(0.16, 0.148, 0.136);  // from below
 
 vec3 sky(vec3 direction) {
   float height = dot(direction, up.xyz);
@@ -20,9 +20,12 @@ vec3 inShadowMap(vec3 place) {
   return vec3(inMap.xy, min(inMap.z, 1.0));
 }
 
-// Share of the lamp's light that arrives, [0, 1].
-float lit(vec3 place) {
-  vec3 at = inShadowMap(place);
+// Share of the lamp's light that arrives, [0, 1]. The place is lifted by as much as a surface on a slope rises between
+// what is looked at in the map, lest it shade itself.
+float lit(vec3 place, vec3 normal) {
+  float facing = dot(normal, towardsLamp.xyz);
+  float lift = 0.5 * shadow.x * sqrt(max(1.0 - facing * facing, 0.04));
+  vec3 at = inShadowMap(place + normal * (facing < 0.0 ? -lift : lift));
   return 0.25 * (tap(at, -0.33, -0.11) + tap(at, 0.11, -0.33) + tap(at, 0.33, 0.11) + tap(at, -0.11, 0.33));
 }
 

@@ -10,7 +10,7 @@ void main() {
   vec3 normal = normalize(across);
   vec3 towardsEye = normalize(eye.xyz - place);
   float facing = max(dot(normal, towardsLamp.xyz), 0.0);
-  float lamp = lit(place + normal * (3.0 * shadow.x));
+  float lamp = lit(place, normal);
   float rim = 1.0 - max(dot(normal, towardsEye), 0.0);
   vec3 light = albedo * (lampColour * (0.85 * facing * lamp) + ambient(normal));
   light += lampColour * (2.0 * gloss(normal, towardsEye, roughness) * facing * lamp);

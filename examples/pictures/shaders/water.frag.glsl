@@ -20,11 +20,11 @@ void main() {
   if (dot(up.xyz, towardsEye) < 0.0) normal = -normal;
   float rim = 1.0 - max(dot(normal, towardsEye), 0.0);
   float fresnel = 0.02 + 0.98 * rim * rim * rim * rim * rim;
-  float shade = lit(place);
-  vec3 body = vec3(0.035, 0.17, 0.22) * (0.75 + 0.35 * shade);
+  float shade = lit(place, up.xyz);
+  vec3 body = vec3(0.02, 0.13, 0.18) * (0.75 + 0.35 * shade);
   vec3 light = mix(body, sky(reflect(-towardsEye, normal)), fresnel);
   light += lampColour * (3.0 * gloss(normal, towardsEye, 0.18) * shade);
   float away = length(place - middle) / reach;
-  float cover = mix(0.50, 0.92, fresnel) * (1.0 - smoothstep(0.72, 1.0, away));
+  float cover = mix(0.58, 0.95, fresnel) * (1.0 - smoothstep(0.15, 1.0, away));
   colour = vec4(encoded(light), cover);
 }
