@@ -84,8 +84,10 @@ void FilmFile::add(const Image& image) {
   fail();
 }
 
+/// What ffmpeg cannot write at the end, on a full disk, it tells on standard error alone: its status is that of
+/// success.
 void FilmFile::finish() {
-  if (!m_ffmpeg.finish()) fail();
+  if (!m_ffmpeg.finish() || !m_ffmpeg.complaint().empty()) fail();
 }
 
 void FilmFile::fail() const {

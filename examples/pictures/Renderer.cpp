@@ -3,10 +3,9 @@
 #include "ColourMap.h"
 #include "ColourScale.h"
 #include "Embedded.h"
-#include "Rods.h"
 #include "VectorMath.h"
-#include "gl/ClothMesh.h"
 #include "gl/ColourBar.h"
+#include "gl/HangingCloth.h"
 #include "gl/Overlay.h"
 #include "gl/PictureBuffer.h"
 #include "gl/PictureUniforms.h"
@@ -40,41 +39,6 @@ void requireOpenGl33() {
   throw std::runtime_error("the renderer needs OpenGL 3.3 core; this context is older");
 }
 
-std::vector<Vector3> pointsOf(const Scenery& scenery, const Frame& frame) {
-  std::vector<Vector3> points;
-  for (const ClothState& cloth : frame.cloths) {
-    points.insert(points.end(), cloth.positions.begin(), cloth.positions.end());
-  }
-  for (const Solid& solid : scenery.solids) points.insert(points.end(), solid.vertices.begin(), solid.vertices.end());
-  return points;
-}
-
-Extent extentOf(const std::vector<Vector3>& points) {
-  if (points.empty()) return {};
-  Vector3 low = points.front();
-  Vector3 high = low;
-  for (const Vector3& point : points) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], point[i]);
-      high[i] = std::max(high[i], point[i]);
-    }
-  }
-  return {(low + high) * 0.5F, std::max(0.5F * length(high - low), 1e-3F)};
-}
-
-/// The longer side of the flat sheet [m].
-float sideOf(const ClothShape& shape) {
-  Texture low{1e30F, 1e30F};
-  Texture high{-1e30F, -1e30F};
-  for (const Texture& place : shape.texture) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      low[i] = std::min(low[i], place[i]);
-      high[i] = std::max(high[i], place[i]);
-    }
-  }
-  return std::max({high[0] - low[0], high[1] - low[1], 1e-3F});
-}
-
 /// A lamp above and beside the first camera, which stays there when the camera moves.
 Vector3 lampOf(const Scenery& scenery) {
   const Vector3 forward = unit(scenery.viewDirection);
@@ -84,39 +48,23 @@ Vector3 lampOf(const Scenery& scenery) {
   return unit(scenery.up * 1.0F - right * 0.55F - level * 0.55F);
 }
 
+/// How far the eye is from what reaches to it, the grounds and the water [m].
+float clearanceOf(const Scenery& scenery, const Vector3& eye) {
+  float clearance = 1e30F;
+  for (const Ground& ground : scenery.grounds) {
+    clearance = std::min(clearance, std::abs(dot(ground.normal, eye) - ground.offset));
+  }
+  if (scenery.waterLevel) clearance = std::min(clearance, std::abs(dot(scenery.up, eye) - *scenery.waterLevel));
+  return clearance;
+}
+
+/// Half of what a pixel is wide at a place that is seen in the middle of the picture [m].
+float halfPixel(const View& view, const Vector3& place, int height) {
+  const float tangent = std::tan(view.fieldOfView * 3.14159265F / 360);
+  return tangent * length(place - view.eye) / static_cast<float>(height);
+}
+
 }  // namespace
-
-/// A cloth with what it hangs from.
-class Hanging {
- public:
-  explicit Hanging(const ClothShape& shape) : m_shape(shape), m_mesh(shape), m_side(sideOf(shape)) {}
-
-  void update(const ClothState& state, const ColourScale& scale, const std::vector<Ground>& grounds) {
-    m_mesh.update(state, scale.placesOf(state));
-    if (m_findRods == nullptr) m_findRods = std::make_unique<Rods>(m_shape, state);
-    m_bars.clear();
-    m_rods = m_findRods->at(state, grounds);
-    for (const Rod& rod : m_rods) {
-      m_bars.push_back(std::make_unique<SolidMesh>(roundBar(rod.from, rod.to, rod.radius)));
-    }
-  }
-
-  const ClothShape& shape() const { return m_shape; }
-  float side() const { return m_side; }
-  const std::vector<Rod>& rods() const { return m_rods; }
-  void drawCloth() const { m_mesh.draw(); }
-  void drawBars() const {
-    for (const auto& bar : m_bars) bar->draw();
-  }
-
- private:
-  const ClothShape m_shape;
-  ClothMesh m_mesh;
-  const float m_side;
-  std::unique_ptr<Rods> m_findRods;  // made in the first state
-  std::vector<Rod> m_rods;
-  std::vector<std::unique_ptr<SolidMesh>> m_bars;
-};
 
 class Renderer::Parts {
  public:
@@ -152,7 +100,7 @@ class Renderer::Parts {
 
   const Scenery m_scenery;
   const Vector3 m_towardsLamp;
-  std::vector<std::unique_ptr<Hanging>> m_hangings;
+  std::vector<std::unique_ptr<HangingCloth>> m_hangings;
   std::vector<std::unique_ptr<SolidMesh>> m_solids;
   SolidMesh m_drop;
   VertexArray m_square;
@@ -192,7 +140,7 @@ Renderer::Parts::Parts(const Scenery& scenery, const std::vector<ClothShape>& cl
                 embedded::ground_frag_glsl}),
       m_water({embedded::common_glsl, embedded::ground_vert_glsl},
               {embedded::common_glsl, embedded::light_glsl, embedded::water_frag_glsl}) {
-  for (const ClothShape& cloth : cloths) m_hangings.push_back(std::make_unique<Hanging>(cloth));
+  for (const ClothShape& cloth : cloths) m_hangings.push_back(std::make_unique<HangingCloth>(cloth));
   for (const Solid& solid : scenery.solids) m_solids.push_back(std::make_unique<SolidMesh>(solid));
   makePictureBlock();
   makeColourMap();
@@ -259,7 +207,8 @@ void Renderer::Parts::castShadows(const std::vector<Vector3>& points) {
 
 void Renderer::Parts::setPicture(const Frame& frame, const View& view, const Area& area) {
   PictureUniforms& uniforms = m_uniforms;
-  look(uniforms, view, static_cast<float>(area.width) / static_cast<float>(area.height), m_extent);
+  look(uniforms, view, static_cast<float>(area.width) / static_cast<float>(area.height), m_extent,
+       clearanceOf(m_scenery, view.eye));
   uniforms.shadowFromWorld = m_shadowMap.mapFromWorld();
   uniforms.towardsLamp = {m_towardsLamp[0], m_towardsLamp[1], m_towardsLamp[2], 0};
   uniforms.up = {m_scenery.up[0], m_scenery.up[1], m_scenery.up[2], m_size};
@@ -402,7 +351,7 @@ void Renderer::Parts::draw(const Frame& frame, const View& view, const Area& are
   scale.include(frame);
   std::vector<Vector3> points = pointsOf(m_scenery, frame);
   for (std::size_t i = 0; i < m_hangings.size(); ++i) {
-    m_hangings[i]->update(frame.cloths[i], scale, m_scenery.grounds);
+    m_hangings[i]->update(frame.cloths[i], scale, m_scenery.grounds, 1.4F * halfPixel(view, view.target, area.height));
     for (const Rod& rod : m_hangings[i]->rods()) points.insert(points.end(), {rod.from, rod.to});
   }
   m_extent = extentOf(points);
@@ -430,7 +379,8 @@ void Renderer::Parts::write(const std::string& left, const std::string& right, c
   glViewport(area.x, area.y, area.width, area.height);
   m_overlay.setTextSize(textSizeFor(width, height));
   const float margin = 1.2F * m_overlay.textSize();
-  m_overlay.addText(margin, height - margin, left, ink);
+  const bool isRoomForBoth = m_overlay.widthOf(left + "  " + right) + 2 * margin < width;
+  if (isRoomForBoth) m_overlay.addText(margin, height - margin, left, ink);
   m_overlay.addText(width - margin - m_overlay.widthOf(right), height - margin, right, ink);
   m_overlay.draw(width, height);
 }
@@ -439,7 +389,7 @@ void Renderer::Parts::writeHead(const std::string& text, const Area& area) {
   const auto width = static_cast<float>(area.width);
   const auto height = static_cast<float>(area.height);
   glViewport(area.x, area.y, area.width, area.height);
-  m_overlay.setTextSize(1.15F * textSizeFor(width, height));
+  m_overlay.setTextSize(1.15F * textSizeFor(1.4F * width, height));
   m_overlay.addText(0.5F * (width - m_overlay.widthOf(text)), 1.9F * m_overlay.textSize(), text, ink);
   m_overlay.draw(width, height);
 }

@@ -1,5 +1,7 @@
 #include "View.h"
 
+#include "VectorMath.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,18 +9,6 @@ namespace pictures {
 namespace {
 
 constexpr float freeBorder = 0.09F;  // of the picture's width and height, on each side
-
-float dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vector3 scaled(const Vector3& a, float factor) { return {a[0] * factor, a[1] * factor, a[2] * factor}; }
-
-Vector3 sum(const Vector3& a, const Vector3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-
-float length(const Vector3& a) { return std::sqrt(dot(a, a)); }
 
 /// Lowest and highest of what was added.
 struct Extent {
@@ -50,10 +40,10 @@ struct Axes {
 
 Axes axesOf(const Scenery& scenery) {
   Axes axes;
-  axes.forward = scaled(scenery.viewDirection, 1 / length(scenery.viewDirection));
+  axes.forward = scenery.viewDirection * (1 / length(scenery.viewDirection));
   const Vector3 sideways = cross(axes.forward, scenery.up);
   const bool looksAlongUp = length(sideways) < 1e-3F;
-  axes.right = looksAlongUp ? Vector3{1, 0, 0} : scaled(sideways, 1 / length(sideways));
+  axes.right = looksAlongUp ? Vector3{1, 0, 0} : sideways * (1 / length(sideways));
   axes.up = cross(axes.right, axes.forward);
   return axes;
 }
@@ -94,9 +84,7 @@ View fitView(const Scenery& scenery, const std::vector<Frame>& frames, float asp
       eye[2] = std::min(eye[2], point[2] - back);
     }
   }
-  const auto place = [&](const Vector3& p) {
-    return sum(sum(scaled(axes.right, p[0]), scaled(axes.up, p[1])), scaled(axes.forward, p[2]));
-  };
+  const auto place = [&](const Vector3& p) { return axes.right * p[0] + axes.up * p[1] + axes.forward * p[2]; };
   return {place(eye), place({eye[0], eye[1], depth.middle()}), scenery.up, scenery.fieldOfView};
 }
 

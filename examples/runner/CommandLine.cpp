@@ -33,6 +33,7 @@ const char* const examples = R"(Examples:
   wetcloth run flag_wind_100.json --frames pictures     and paint it: pictures/frame_0000.svg, ...
   wetcloth run curtain.json --quality accurate --json result.json
   wetcloth render flag_wind_100.json --out flag.mp4     a film; .png, .gif, .webm as well; needs no display
+  wetcloth render hanging_towel.json --out towel.html   a page: orbit, play, scrub, plots
   wetcloth render dip_and_lift.json --out dip.png --times 0,3,6,9 --size 480x640    a strip of pictures
   wetcloth render hanging_towel.json --out towel.mp4 --compare    plain Bullet, dry and wet side by side
   wetcloth cost flag_wind_100.json                      what each effect of a scene takes, beside Bullet's step
@@ -86,7 +87,8 @@ void addRun(CLI::App& app, RunOptions& options, char** arguments) {
 }
 
 void addRender(CLI::App& app, RenderOptions& options, char** arguments) {
-  CLI::App* const render = app.add_subcommand("render", "Run a scene and draw pictures or a film, without a display");
+  CLI::App* const render =
+      app.add_subcommand("render", "Run a scene and draw pictures, a film or a page for a browser, without a display");
   render->add_option("scene", options.scene, "Scene file (JSON, see docs/scenes.md)")->required();
   render->add_option("--out", options.out, "File, which is replaced; its suffix chooses: " + joined(renderSuffixes()))
       ->required();
@@ -94,7 +96,8 @@ void addRender(CLI::App& app, RenderOptions& options, char** arguments) {
                      "WIDTHxHEIGHT of the film or of each picture [pixels]; default 1280x720, for a .gif 640x360");
   render->add_option("--times", options.times, "Of a .png: when [s]; several give a strip; default is the end")
       ->delimiter(',');
-  render->add_option("--fps", options.framesPerSecond, "Of a film: pictures per second; default 30, for a .gif 25");
+  render->add_option("--fps", options.framesPerSecond,
+                     "Of a film or page: pictures per second; default 30, for a .gif 25");
   render->add_option("--speed", options.speed, "Of a film: simulated seconds per second of film; 0.25 is slow motion")
       ->capture_default_str();
   render->add_option("--view", options.view, "X,Y,Z: what the camera looks along, instead of the scene's own direction")

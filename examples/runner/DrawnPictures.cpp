@@ -36,6 +36,7 @@ RenderResult drawFilm(const RenderJob&) { refuse(); }
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <numeric>
@@ -77,6 +78,14 @@ std::string stateText(const Frame& frame) {
   return text;
 }
 
+/// A white line down a picture, two pixels wide.
+void rule(Image& image, int left) {
+  for (int y = 0; y < image.height; ++y) {
+    const std::ptrdiff_t from = 3 * (static_cast<std::ptrdiff_t>(y) * image.width + left - 1);
+    std::fill_n(image.rgb.begin() + from, 6, std::uint8_t{255});
+  }
+}
+
 /// Draws the frames of a job.
 class Drawing {
  public:
@@ -112,6 +121,7 @@ class Drawing {
     const pictures::Recording& last = m_job.panels.back().recording;  // the wet one
     m_renderers.back()->write(last.scenery.title, stateText(last.frames[index]), {0, 0, m_job.width, m_job.height});
     Image image = m_context.read();
+    for (std::size_t i = 1; i < m_areas.size(); ++i) rule(image, m_areas[i].x);
     m_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return image;
   }

@@ -5,6 +5,7 @@
 #include "RecordRun.h"
 #include "StagedOutput.h"
 
+#include "../pictures/HtmlPage.h"
 #include "../pictures/ObjFile.h"
 #include "../pictures/PlySequence.h"
 #include "../pictures/UsdFile.h"
@@ -35,7 +36,8 @@ const std::vector<Format>& formats() {
       {"obj_pc2", "a folder of Wavefront OBJ and PC2 point caches, for Blender's modifier Mesh Cache", Kind::folder, "",
        pictures::writeObjAndPointCaches},
       {"usda", "a file .usda, USD as text", Kind::file, ".usda", pictures::writeUsd},
-      {"vtk", "a folder of VTK PolyData with run.pvd, for ParaView", Kind::folder, "", pictures::writeVtkSeries}};
+      {"vtk", "a folder of VTK PolyData with run.pvd, for ParaView", Kind::folder, "", pictures::writeVtkSeries},
+      {"html", "a page .html to look at the run in a browser", Kind::file, ".html", pictures::writeHtml}};
   return all;
 }
 

@@ -118,11 +118,20 @@ void requireMemory(const Scene& scene, double frames) {
   throw InputError(scene.file + text);
 }
 
-void dropZeros(std::vector<pictures::Series>& series) {
-  const auto isZero = [](const pictures::Series& one) {
-    return std::all_of(one.values.begin(), one.values.end(), [](double value) { return value == 0; });
-  };
-  series.erase(std::remove_if(series.begin(), series.end(), isZero), series.end());
+bool isSame(const pictures::Series& a, const pictures::Series& b) {
+  const auto isNear = [](double x, double y) { return std::abs(x - y) <= 1e-9 * std::max(std::abs(x), std::abs(y)); };
+  return a.unit == b.unit && std::equal(a.values.begin(), a.values.end(), b.values.begin(), isNear);
+}
+
+/// Those that have something to tell: no zeros throughout, nothing that is the same as one before it.
+std::vector<pictures::Series> telling(const std::vector<pictures::Series>& all) {
+  std::vector<pictures::Series> kept;
+  for (const pictures::Series& one : all) {
+    const bool isZero = std::all_of(one.values.begin(), one.values.end(), [](double value) { return value == 0; });
+    const bool isKnown = std::any_of(kept.begin(), kept.end(), [&](const auto& other) { return isSame(one, other); });
+    if (!isZero && !isKnown) kept.push_back(one);
+  }
+  return kept;
 }
 
 }  // namespace
@@ -145,7 +154,7 @@ pictures::Recording recordRun(const Scene& scene, const std::vector<double>& tim
   pictures::Recording& recording = sampler.recording();
   recording.scenery = recorder.scenery();
   recording.cloths = recorder.cloths();
-  dropZeros(recording.series);
+  recording.series = telling(recording.series);
   return std::move(recording);
 }
 

@@ -9,7 +9,8 @@
 namespace runner {
 
 /// Runs a scene from its start to its end and keeps what pictures and files need, with progress on standard error.
-/// A frame that falls between two steps is mixed of both. Series that are zero throughout are left out.
+/// A frame that falls between two steps is mixed of both. Series that are zero throughout, or the same as another, are
+/// left out.
 ///
 /// Throws InputError when the library refuses the scene, or when so many frames would not fit into memory (2 GB);
 /// RunError when the run becomes non-finite.

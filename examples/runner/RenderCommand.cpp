@@ -10,6 +10,7 @@
 #include "RenderJob.h"
 #include "StagedOutput.h"
 
+#include "../pictures/HtmlPage.h"
 #include "../pictures/Unavailable.h"
 
 #include <algorithm>
@@ -42,11 +43,19 @@ struct Product {
   RenderResult (*write)(const RenderJob&);
 };
 
+void requireNothing(int /*width*/, int /*height*/) {}
+
+RenderResult writePage(const RenderJob& job) {
+  pictures::writeHtml(job.panels.back().recording, job.path);
+  return {};
+}
+
 const std::vector<Product>& products() {
   static const std::vector<Product> all{{".png", false, 0, "1280x720", false, requirePng, drawPng},
                                         {".mp4", true, 30, "1280x720", true, requireFilm, drawFilm},
                                         {".webm", true, 30, "1280x720", true, requireFilm, drawFilm},
-                                        {".gif", true, 25, "640x360", false, requireFilm, drawFilm}};
+                                        {".gif", true, 25, "640x360", false, requireFilm, drawFilm},
+                                        {".html", true, 30, "1280x720", false, requireNothing, writePage}};
   return all;
 }
 
@@ -78,6 +87,9 @@ void requireOptions(const RenderOptions& options, const Product& product) {
   }
   if (!options.view.empty() && std::hypot(options.view[0], options.view[1], options.view[2]) < 1e-6) {
     refuse("--view", 0, "a direction, not all zero");
+  }
+  if (product.write == writePage && options.compare) {
+    throw InputError("wetcloth: --compare: must be left out for a page, which shows one run");
   }
   if (product.isFilm && !options.times.empty()) refuse("--times", options.times[0], "left out for a film");
 }
@@ -158,8 +170,12 @@ nlohmann::ordered_json jsonOf(const RenderOptions& options, const Scene& scene, 
 
 void printSummary(const RenderOptions& options, const RenderJob& job, const RenderResult& result) {
   const std::size_t count = job.panels.front().recording.frames.size();
-  std::printf("%s: %zu %s, %d x %d pixels\n", options.out.c_str(), count, count == 1 ? "picture" : "pictures",
-              result.width, result.height);
+  const char* const pictures = count == 1 ? "picture" : "pictures";
+  if (result.renderer.empty()) {
+    std::printf("%s: %zu %s\n", options.out.c_str(), count, pictures);
+    return;
+  }
+  std::printf("%s: %zu %s, %d x %d pixels\n", options.out.c_str(), count, pictures, result.width, result.height);
   std::printf("drawn at %.1f pictures a second by %s\n", speedOfDrawing(job, result), result.renderer.c_str());
 }
 

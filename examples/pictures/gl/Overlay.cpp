@@ -28,6 +28,9 @@ constexpr GLuint atlasUnit = 2;
 constexpr float fullTexel = 1.5F;
 constexpr int fullTexels = 4;
 
+/// Of a character of UTF-8, all bytes but the first.
+bool isContinuation(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
+
 }  // namespace
 
 Overlay::Overlay()
@@ -87,7 +90,9 @@ const Overlay::Glyph& Overlay::glyphOf(char character) const {
 
 float Overlay::widthOf(const std::string& text) const {
   float width = 0;
-  for (const char character : text) width += glyphOf(character).advance;
+  for (const char character : text) {
+    if (!isContinuation(character)) width += glyphOf(character).advance;
+  }
   return width;
 }
 
@@ -110,6 +115,7 @@ void Overlay::addText(float left, float baseline, const std::string& text, const
   float pen = left;
   baseline = std::round(baseline);
   for (const char character : text) {
+    if (isContinuation(character)) continue;
     const Glyph& glyph = glyphOf(character);
     addQuadrilateral({pen + glyph.left, baseline + glyph.top, pen + glyph.right, baseline + glyph.bottom},
                      {glyph.u0, glyph.v0, glyph.u1, glyph.v1}, tint);

@@ -13,14 +13,16 @@ PictureUniforms::Vector4 with(const Vector3& vector, float last) { return {vecto
 
 }  // namespace
 
-void look(PictureUniforms& uniforms, const View& view, float aspect, const Extent& extent) {
+void look(PictureUniforms& uniforms, const View& view, float aspect, const Extent& extent, float clearance) {
   const Vector3 forward = unit(view.target - view.eye);
   Vector3 right = unit(cross(forward, view.up));
   if (length(right) < 0.5F) right = perpendicular(forward);
   const Vector3 above = cross(right, forward);
   const float tangent = std::tan(view.fieldOfView * 3.14159265F / 360);
   const float distance = length(extent.middle - view.eye);
-  const float nearest = std::max(0.5F * (distance - extent.radius), 0.01F * extent.radius);
+  // What a ray to the picture's corner advances along the view is at most this part of its way to a plane.
+  const float planes = clearance / (1 + tangent * (1 + aspect));
+  const float nearest = std::max(std::min(0.5F * (distance - extent.radius), planes), 0.005F * extent.radius);
   const float farthest = distance + 80 * extent.radius;
   uniforms.clipFromWorld =
       product(perspective(tangent * aspect, tangent, nearest, farthest), lookFrom(view.eye, right, above, forward));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ShadowMap.h"
+#include "Extent.h"
 
 #include "../Matrix4.h"
 #include "../Recording.h"
@@ -25,15 +25,10 @@ struct PictureUniforms {
   Vector4 shadow{};
 };
 
-/// A ball around all that is to be seen but the ground and the sky.
-struct Extent {
-  Vector3 middle{};
-  float radius = 1;  ///< [m]
-};
-
 /// Sets what depends on the camera.
 /// @param aspect  width over height of the picture
-void look(PictureUniforms& uniforms, const View& view, float aspect, const Extent& extent);
+/// @param clearance  of the eye from planes that may reach to it [m]
+void look(PictureUniforms& uniforms, const View& view, float aspect, const Extent& extent, float clearance);
 
 Vector3 eyeOf(const PictureUniforms& uniforms);
 
