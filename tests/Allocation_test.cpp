@@ -107,6 +107,20 @@ TEST_P(NoAllocation, InTheStepAfterItsFirstTurns) {
   EXPECT_GT(quietSteps, 100);
 }
 
+TEST_P(NoAllocation, InFillingAVertexBuffer) {
+  CoreScene scene(GetParam(), hangingPatch(10));
+  wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
+  const wetcloth::WetCloth& cloth = wet.add(scene.body());
+  std::vector<float> floats(1000);
+  const wetcloth::VertexBuffer buffer = {floats.data(), 100, {0, 10}, {3, 10}, {6, 10}, {9, 10}};
+  g_allocations = 0;
+  g_counting = true;
+  wetcloth::fillVertexBuffer(cloth, buffer);
+  g_counting = false;
+  EXPECT_EQ(g_allocations, 0);
+  EXPECT_GT(floats.back(), 0);
+}
+
 WETCLOTH_IN_EVERY_WORLD(NoAllocation);
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "ExportCommand.h"
 #include "FallCommand.h"
 #include "NearestWord.h"
+#include "PlotCommand.h"
 #include "RenderCommand.h"
 #include "RunCommand.h"
 #include "ValidateCommand.h"
@@ -39,6 +40,7 @@ const char* const examples = R"(Examples:
   wetcloth render dip_and_lift.json --out dip.png --times 0,3,6,9 --size 480x640    a strip of pictures
   wetcloth render hanging_towel.json --out towel.mp4 --compare    plain Bullet, dry and wet side by side
   wetcloth cost flag_wind_100.json                      what each effect of a scene takes, beside Bullet's step
+  wetcloth plot fall --out plots                        the wet and the dry fall as CSV, SVG and PNG
   wetcloth export curtain.json --format vtk --out curtain   for ParaView; for Blender, Houdini, ... see --help
   wetcloth validate *.json                              check scenes without running them
   wetcloth ccd queries.csv.gz --method exact            collision checks against exact answers
@@ -152,6 +154,20 @@ void addCost(CLI::App& app, CostOptions& options, char** arguments) {
   });
 }
 
+void addPlot(CLI::App& app, PlotOptions& options) {
+  CLI::App* const plot =
+      app.add_subcommand("plot", "Plot the paper's numbers beside ours: CSV, with gnuplot SVG and PNG");
+  plot->add_option(
+          "name", options.name,
+          "mass: of a node that soaks; fall: height against time; fps: frames per second; wicking: profile of a "
+          "strip; springs: of the mesh; all")
+      ->check(oneOf("NAME", plotWords()))
+      ->capture_default_str();
+  plot->add_option("--out", options.directory, "Directory for the files, made if it is not there")->required();
+  plot->add_option("--json", options.json, "File for what was made as JSON; - is standard output, with nothing else");
+  plot->callback([&options] { makePlots(options); });
+}
+
 void addExport(CLI::App& app, ExportOptions& options, char** arguments) {
   CLI::App* const command = app.add_subcommand("export", "Run a scene and write it for other programs");
   command->add_option("scene", options.scene, "Scene file (JSON, see docs/scenes.md)")->required();
@@ -260,6 +276,7 @@ int runCommandLine(int count, char** arguments) {
   CostOptions cost;
   viewer::ViewOptions view;
   CcdOptions ccd;
+  PlotOptions plot;
   ExportOptions exported;
   RenderOptions render;
   std::vector<std::string> files;
@@ -267,6 +284,7 @@ int runCommandLine(int count, char** arguments) {
   addRender(app, render, arguments);
   addFall(app, fall, arguments);
   addCost(app, cost, arguments);
+  addPlot(app, plot);
   addExport(app, exported, arguments);
   addView(app, view, arguments);
   addValidate(app, files);

@@ -44,7 +44,7 @@ constexpr double planeHalfExtent = 50;
 
 }  // namespace
 
-SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_world(settingsOf(scene)) {
+SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_world(settingsOf(scene)), m_drops(scene) {
   if (kind == Kind::wet) m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_world.world());
   if (scene.water) addWater(*scene.water);
   for (const Collider& collider : scene.colliders) addCollider(collider);
@@ -83,8 +83,9 @@ void SceneWorld::addWater(const WaterScene& water) {
 void SceneWorld::addEffects(std::size_t index, wetcloth::WetCloth& wet) {
   for (const EffectScene& effect : m_scene.cloths[index].effects) {
     atPointer(m_scene, "/cloths/" + std::to_string(index) + "/effects/" + effect.key, [&] {
-      auto* audit = dynamic_cast<wetcloth::CollisionAudit*>(&effect.addTo(wet, m_colliders));
-      if (audit != nullptr) m_audits.push_back(audit);
+      wetcloth::Effect& added = effect.addTo(wet, m_colliders);
+      if (auto* audit = dynamic_cast<wetcloth::CollisionAudit*>(&added)) m_audits.push_back(audit);
+      if (auto* dripping = dynamic_cast<wetcloth::Dripping*>(&added)) m_drops.follow(*dripping);
     });
   }
 }
@@ -119,6 +120,7 @@ void SceneWorld::step(const BeforeSubstep& before) {
     m_world.substep(dt);
   }
   ++m_steps;
+  m_drops.forgetLanded(m_steps * m_scene.step);
 }
 
 void SceneWorld::setIterations(int iterations) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "BulletWorld.h"
+#include "FallingDrops.h"
 #include "Motion.h"
 #include "Scene.h"
 #include "Twist.h"
@@ -39,6 +40,7 @@ class SceneWorld {
   const std::vector<btSoftBody*>& bodies() const { return m_bodies; }
   /// The wet cloths, in the order of the scene; none in plain Bullet.
   const std::vector<wetcloth::WetCloth*>& cloths() const { return m_cloths; }
+  const FallingDrops& drops() const { return m_drops; }
   const std::vector<wetcloth::CollisionAudit*>& audits() const { return m_audits; }
   const Colliders& colliders() const { return m_colliders; }
   /// Whether all positions and velocities are finite.
@@ -52,6 +54,7 @@ class SceneWorld {
 
   const Scene& m_scene;
   BulletWorld m_world;
+  FallingDrops m_drops;                                 // before the effects that it follows
   std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;  // after the world: it detaches before the world goes
   std::vector<btSoftBody*> m_bodies;
   std::vector<wetcloth::WetCloth*> m_cloths;

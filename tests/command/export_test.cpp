@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -231,3 +232,5 @@ TEST(Render, APageShowsOneRun) {
   EXPECT_EQ(runWetcloth({"render", scene, "--out", out}).status, 0);
   EXPECT_EQ(bytesOf(out).rfind("<!DOCTYPE html>", 0), 0u);
 }
+
+}  // namespace wetcloth_test
