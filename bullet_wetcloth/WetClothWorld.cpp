@@ -2,6 +2,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/SubstepHook.h"
+#include "bullet_wetcloth/shading/DebugDraw.h"
 
 #include <BulletSoftBody/btDeformableBodySolver.h>
 #include <BulletSoftBody/btDeformableGravityForce.h>
@@ -167,6 +168,15 @@ bool WetClothWorld::isInWorld(const btSoftBody& body) const {
     if (bodies[i] == &body) return true;
   }
   return false;
+}
+
+void WetClothWorld::debugDraw(btIDebugDraw& drawer, double metresPerPascal) const {
+  requireFinite("metresPerPascal", metresPerPascal);
+  for (const auto& cloth : m_cloths) {
+    if (!isInWorld(cloth->m_body)) continue;
+    drawSaturation(*cloth, drawer);
+    if (metresPerPascal != 0) drawWind(*cloth, drawer, m_time, metresPerPascal);
+  }
 }
 
 void WetClothWorld::setLog(std::function<void(const std::string&)> log) { m_log = std::move(log); }

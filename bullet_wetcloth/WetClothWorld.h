@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+class btIDebugDraw;
+
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
@@ -67,6 +69,13 @@ class WetClothWorld {
   /// isTickHooked()). Call it from Bullet's tick callback, btDynamicsWorld::setInternalTickCallback(callback, userInfo,
   /// false). A dt that is not finite and positive is ignored. Never throws.
   void tick(btScalar dt);
+
+  /// Draws the wet cloths with the application's own drawer: triangles coloured by saturation (saturationColour()), and
+  /// as red lines the force of the air per area on each (Wind::traction()), `metresPerPascal` long for each pascal
+  /// [m/Pa], finite; 0 draws none. Cloths whose bodies left the world are left out. Call it where the application calls
+  /// btDynamicsWorld::debugDrawWorld(); the drawer's debug mode is not asked. Nothing in the step knows of it.
+  /// Throws std::invalid_argument when metresPerPascal is not finite.
+  void debugDraw(btIDebugDraw& drawer, double metresPerPascal = 0.01) const;
 
   /// Simulated time since construction [s].
   double time() const { return m_time; }

@@ -24,3 +24,5 @@
 #include "bullet_wetcloth/effects/Wind.h"
 #include "bullet_wetcloth/mesh/ClothPatch.h"
 #include "bullet_wetcloth/shading/Colour.h"
+#include "bullet_wetcloth/shading/DebugDraw.h"
+#include "bullet_wetcloth/shading/VertexBuffer.h"

@@ -36,7 +36,10 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 #endif
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 // Water that comes and goes fast, so that in each step every effect has something to do.
@@ -104,7 +107,21 @@ TEST_P(NoAllocation, InTheStepAfterItsFirstTurns) {
   EXPECT_GT(quietSteps, 100);
 }
 
+TEST_P(NoAllocation, InFillingAVertexBuffer) {
+  CoreScene scene(GetParam(), hangingPatch(10));
+  wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
+  const wetcloth::WetCloth& cloth = wet.add(scene.body());
+  std::vector<float> floats(1000);
+  const wetcloth::VertexBuffer buffer = {floats.data(), 100, {0, 10}, {3, 10}, {6, 10}, {9, 10}};
+  g_allocations = 0;
+  g_counting = true;
+  wetcloth::fillVertexBuffer(cloth, buffer);
+  g_counting = false;
+  EXPECT_EQ(g_allocations, 0);
+  EXPECT_GT(floats.back(), 0);
+}
+
 WETCLOTH_IN_EVERY_WORLD(NoAllocation);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -5,7 +5,10 @@
 #include <limits>
 #include <stdexcept>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 const double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -211,4 +214,4 @@ TEST_P(BadInput, FabricFields) {
 WETCLOTH_IN_EVERY_WORLD(BadInput);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

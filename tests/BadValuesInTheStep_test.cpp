@@ -5,7 +5,10 @@
 
 #include <limits>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 const double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -133,4 +136,4 @@ TEST_P(BadValuesInTheStep, ThroughBulletTooAStepBackwardsAddsNoWater) {
 WETCLOTH_IN_EVERY_WORLD(BadValuesInTheStep);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

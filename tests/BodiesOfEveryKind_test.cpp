@@ -6,7 +6,10 @@
 #include <BulletSoftBody/btDeformableNeoHookeanForce.h>
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 std::unique_ptr<btSoftBody> cloth(btSoftBodyWorldInfo& info, bool heavy) {
@@ -112,4 +115,4 @@ TEST_P(Tetrahedra, CanAbsorbAndFeelWind) {
 WETCLOTH_IN_EVERY_WORLD(Tetrahedra);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

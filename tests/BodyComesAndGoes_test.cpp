@@ -2,7 +2,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 void addEverything(wetcloth::WetCloth& cloth) {
@@ -96,4 +99,4 @@ TEST_P(BodyComesAndGoes, ForgottenThenDeleted) {
 WETCLOTH_IN_EVERY_WORLD(BodyComesAndGoes);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -5,7 +5,10 @@
 #include <memory>
 #include <stdexcept>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 struct Application {
@@ -202,4 +205,4 @@ TEST(CallbackChainOfAnotherWorld, IsRefused) {
 WETCLOTH_IN_EVERY_WORLD(CallbackChain);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

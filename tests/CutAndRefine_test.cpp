@@ -2,7 +2,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 // The plane x = 0.37.
@@ -189,4 +192,4 @@ INSTANTIATE_TEST_SUITE_P(, SharedMass,
                          nameOfCase);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -4,7 +4,10 @@
 
 #include <stdexcept>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 using wetcloth::Stage;
@@ -250,4 +253,4 @@ TEST_P(OwnEffect, ThatIsNotOursCannotBeRemoved) {
 WETCLOTH_IN_EVERY_WORLD(OwnEffect);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 constexpr int kSteps = 600;
@@ -83,4 +86,4 @@ TEST_P(NoEffectsNoChange, OnTheBodyItself) {
 WETCLOTH_IN_EVERY_WORLD(NoEffectsNoChange);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 constexpr double kRounding = kIsDouble ? 1e-14 : 1e-6;
@@ -86,4 +89,4 @@ TEST_P(NodeMasses, AReleasedNodeTakesTheMassThatItWasGiven) {
 WETCLOTH_IN_EVERY_WORLD(NodeMasses);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -2,7 +2,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 class OnlyTheWorkAskedFor : public InEveryWorld {};
@@ -118,4 +121,4 @@ TEST_P(OnlyTheWorkAskedFor, IsDoneAtOnceWhenWaterIsSetByHand) {
 WETCLOTH_IN_EVERY_WORLD(OnlyTheWorkAskedFor);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

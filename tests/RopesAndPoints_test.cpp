@@ -5,7 +5,10 @@
 
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 // 1 m long, 11 nodes of 1 kg, its first one fixed.
@@ -109,4 +112,4 @@ TEST_P(RopesAndPoints, RemovedSpringsGiveTheLinksBack) {
 WETCLOTH_IN_EVERY_WORLD(RopesAndPoints);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

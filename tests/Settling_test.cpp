@@ -5,7 +5,10 @@
 
 #include <cmath>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 using wetcloth::Settling;
@@ -203,4 +206,4 @@ TEST(SettlingOnWater, DoesNotLookAtTheShape) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

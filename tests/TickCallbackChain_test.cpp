@@ -5,7 +5,10 @@
 
 #include <stdexcept>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 using wetcloth::Stage;
@@ -235,4 +238,4 @@ TEST(TickCallbackOfASleeper, DoesNotRun) {
 WETCLOTH_IN_EVERY_WORLD(TickCallbackChain);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

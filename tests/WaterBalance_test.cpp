@@ -2,7 +2,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 // Relative to all the water that ever passed.
@@ -111,4 +114,4 @@ TEST_P(WaterBalance, HoldsWhenAnEffectTakesTooMuch) {
 WETCLOTH_IN_EVERY_WORLD(WaterBalance);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

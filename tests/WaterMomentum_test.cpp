@@ -2,7 +2,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -154,4 +157,4 @@ TEST_P(WaterMomentum, ThePapersWayKeepsVelocities) {
 WETCLOTH_IN_EVERY_WORLD(WaterMomentum);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

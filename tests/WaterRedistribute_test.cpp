@@ -6,7 +6,10 @@
 #include <array>
 #include <limits>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -276,4 +279,4 @@ TEST_P(WaterRedistribute, StaysFiniteWhenMoreMovesOnThanTheNodeWasHeavyBefore) {
 WETCLOTH_IN_EVERY_WORLD(WaterRedistribute);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -4,7 +4,10 @@
 
 #include <array>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -178,4 +181,4 @@ TEST_P(WaterRunOff, ReachesBulletsNextStep) {
 WETCLOTH_IN_EVERY_WORLD(WaterRunOff);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

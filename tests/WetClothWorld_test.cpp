@@ -4,7 +4,10 @@
 
 #include <thread>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 // Everything at once, with numbers that depend on `seed`.
@@ -133,4 +136,4 @@ TEST_P(SeveralCloths, AreFoundRemovedAndAddedAgain) {
 WETCLOTH_IN_EVERY_WORLD(SeveralCloths);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

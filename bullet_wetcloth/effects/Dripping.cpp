@@ -40,6 +40,8 @@ void Dripping::setHoldingSaturation(double holdingSaturation) {
   m_settling.restart();
 }
 
+void Dripping::setOnDrip(std::function<void(const Drip&)> onDrip) { m_parameters.onDrip = std::move(onDrip); }
+
 void Dripping::attach(WetCloth& cloth) {
   if (cloth.body().m_faces.size() == 0) {
     rejectValue("Dripping: body.m_faces.size()", 0,

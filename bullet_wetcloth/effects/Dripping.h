@@ -62,6 +62,8 @@ class Dripping : public Effect {
   const Parameters& parameters() const { return m_parameters; }
   /// As when a cloth is wrung. Throws std::invalid_argument, and then nothing changes.
   void setHoldingSaturation(double holdingSaturation);
+  /// Who takes the drops from now on, see Parameters::onDrip; an empty function: nobody. Not from inside onDrip.
+  void setOnDrip(std::function<void(const Drip&)> onDrip);
 
   const char* name() const override { return "Dripping"; }
   Stage stage() const override { return Stage::losses; }

@@ -125,6 +125,23 @@ btVector3 Wind::windAtCentre(const WetCloth& cloth, const Step& step) const {
   return m_parameters.velocity.at((body.m_bounds[0] + body.m_bounds[1]) / 2, step.time);
 }
 
+btVector3 Wind::traction(const btSoftBody::Face& face, double time) const {
+  const btSoftBody::Node& a = *face.m_n[0];
+  const btSoftBody::Node& b = *face.m_n[1];
+  const btSoftBody::Node& c = *face.m_n[2];
+  const FlatTriangle triangle = flatTriangle(a.m_x, b.m_x, c.m_x);
+  if (triangle.area == 0) return btVector3(0, 0, 0);
+  const btVector3 wind = m_parameters.velocity.at((a.m_x + b.m_x + c.m_x) * kThird, time);
+  if (m_parameters.law == Law::paper) {
+    const btScalar corners = 3;
+    return paperWindForce(a.m_x, b.m_x, c.m_x, wind) *
+           (corners * static_cast<btScalar>(m_parameters.paperForce) / triangle.area);
+  }
+  const btVector3 relative = wind - (a.m_v + b.m_v + c.m_v) * kThird;
+  const Step instant = {0, time, btVector3(0, 0, 0)};
+  return forceOnTriangle(triangle, relative, resistanceOf(m_parameters, instant)) / triangle.area;
+}
+
 bool Wind::wakes(const WetCloth& cloth, const Step& step) const {
   const btScalar change = (windAtCentre(cloth, step) - m_windAtCentre).length();
   return change > btScalar(0.1) * (1 + m_windAtCentre.length());

@@ -3,6 +3,8 @@
 #include "bullet_wetcloth/Effect.h"
 #include "bullet_wetcloth/effects/WindField.h"
 
+#include <BulletSoftBody/btSoftBody.h>
+
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -70,6 +72,11 @@ class Wind : public Effect {
   void apply(WetCloth& cloth, const Step& step) override;
   /// When the air at the body's centre has changed by more than a tenth, or 0.1 m/s, since the last apply().
   bool wakes(const WetCloth& cloth, const Step& step) const override;
+
+  /// Force of the air per area on a triangle as it lies and moves now [Pa], before any integration; with Law::paper its
+  /// three corners' together. Zero for a triangle without area. For a look at the wind: the step does not use it.
+  /// @param time  simulated [s]
+  btVector3 traction(const btSoftBody::Face& face, double time) const;
 
   /// Force of the air on the whole cloth in the last step [N].
   btVector3 totalForce() const { return m_totalForce; }

@@ -118,15 +118,16 @@ std::string script() {
 }  // namespace
 
 void writeHtml(const Recording& recording, const std::string& path) {
-  PackedRun run = packed(recording);
-  run.head["scenery"] = jsonOf(recording.scenery);
-  run.head["series"] = jsonOf(recording.series);
-  run.head["view"] = jsonOf(fitView(recording.scenery, recording.frames, aspect));
-  run.head["shaders"] = shaders();
+  nlohmann::json head;
+  const std::string bytes = packed(recording, head);
+  head["scenery"] = jsonOf(recording.scenery);
+  head["series"] = jsonOf(recording.series);
+  head["view"] = jsonOf(fitView(recording.scenery, recording.frames, aspect));
+  head["shaders"] = shaders();
   std::string page(embedded::page_html);
   // From the end of the page to its start: a title may look like a place.
-  const std::vector<std::pair<std::string_view, std::string>> parts{{"{{bytes}}", base64(deflated(run.bytes))},
-                                                                    {"{{head}}", scriptSafe(run.head)},
+  const std::vector<std::pair<std::string_view, std::string>> parts{{"{{bytes}}", base64(deflated(bytes))},
+                                                                    {"{{head}}", scriptSafe(head)},
                                                                     {"{{script}}", script()},
                                                                     {"{{style}}", std::string(embedded::page_css)},
                                                                     {"{{title}}", escaped(recording.scenery.title)}};

@@ -22,9 +22,9 @@ std::vector<Texture> inUnitSquare(std::vector<Texture> texture) {
   return texture;
 }
 
-void writeCloth(const Recording& recording, std::size_t cloth, const std::string& name, const std::string& folder) {
+void writeCloth(const Recording& recording, std::size_t cloth, const std::string& name, const std::string& path) {
   const ClothShape& shape = recording.cloths[cloth];
-  OutputFile file(folder + "/" + name + ".obj");
+  OutputFile file(path);
   std::ostream& out = file.stream();
   out.precision(9);
   out << "# " << onOneLine(recording.scenery.title) << ", metres\no " << name << "\n";
@@ -67,13 +67,15 @@ void writeScenery(const std::vector<StandingMesh>& meshes, const std::string& fo
 }  // namespace
 
 void writeObjAndPointCaches(const Recording& recording, const std::string& folder) {
+  const std::string inFolder = folder + "/";
   std::vector<std::string> names{"scenery"};
   for (const ClothShape& cloth : recording.cloths) names.push_back(cloth.name);
   names = uniqueNames(names);
   for (std::size_t cloth = 0; cloth < recording.cloths.size(); ++cloth) {
     const std::string& name = names[cloth + 1];
-    writeCloth(recording, cloth, name, folder);
-    writePointCache(recording, cloth, folder + "/" + name + ".pc2");
+    const std::string path = inFolder + name;
+    writeCloth(recording, cloth, name, path + ".obj");
+    writePointCache(recording, cloth, path + ".pc2");
   }
   const std::vector<StandingMesh> meshes = standingMeshes(recording);
   if (!meshes.empty()) writeScenery(meshes, folder);

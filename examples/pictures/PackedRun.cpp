@@ -54,18 +54,19 @@ Range rangeOf(const Recording& recording, Values values, Range range) {
 
 class Packer {
  public:
-  explicit Packer(const Recording& recording) : m_recording(recording), m_box(boxOf(recording)) {}
+  Packer(const Recording& recording, nlohmann::json& head)
+      : m_recording(recording), m_box(boxOf(recording)), m_head(head) {}
 
-  PackedRun pack() {
-    m_run.head["box"] = {m_box.low, m_box.high};
-    m_run.head["times"] = nlohmann::json::array();
-    for (const Frame& frame : m_recording.frames) m_run.head["times"].push_back(frame.time);
+  std::string pack() {
+    m_head["box"] = {m_box.low, m_box.high};
+    m_head["times"] = nlohmann::json::array();
+    for (const Frame& frame : m_recording.frames) m_head["times"].push_back(frame.time);
     const Range saturation{0, 1};
     const Range stretch = rangeOf(m_recording, &ClothState::stretch, {1, 1.02F});
     const Range speed = rangeOf(m_recording, &ClothState::speed, {0, 0.1F});
-    m_run.head["ranges"] = {{"saturation", {saturation.low, saturation.high}},
-                            {"stretch", {stretch.low, stretch.high}},
-                            {"speed", {speed.low, speed.high}}};
+    m_head["ranges"] = {{"saturation", {saturation.low, saturation.high}},
+                        {"stretch", {stretch.low, stretch.high}},
+                        {"speed", {speed.low, speed.high}}};
     for (std::size_t cloth = 0; cloth < m_recording.cloths.size(); ++cloth) {
       putShape(m_recording.cloths[cloth]);
       putPositions(cloth);
@@ -76,20 +77,19 @@ class Packer {
     putSolids();
     putRods();
     putDrops();
-    return std::move(m_run);
+    return std::move(m_bytes);
   }
 
  private:
-  std::string& bytes() { return m_run.bytes; }
   Range axis(std::size_t i) const { return {m_box.low[i], m_box.high[i]}; }
 
   void putShape(const ClothShape& shape) {
-    m_run.head["cloths"].push_back({{"name", shape.name},
-                                    {"nodes", shape.texture.size()},
-                                    {"triangles", shape.triangles.size()},
-                                    {"dryColour", shape.dryColour},
-                                    {"wetColour", shape.wetColour},
-                                    {"roughness", {shape.dryRoughness, shape.wetRoughness}}});
+    m_head["cloths"].push_back({{"name", shape.name},
+                                {"nodes", shape.texture.size()},
+                                {"triangles", shape.triangles.size()},
+                                {"dryColour", shape.dryColour},
+                                {"wetColour", shape.wetColour},
+                                {"roughness", {shape.dryRoughness, shape.wetRoughness}}});
     putAll(shape.texture);
     putAll(shape.triangles);
   }
@@ -97,25 +97,25 @@ class Packer {
   template <std::size_t Count>
   void putAll(const std::vector<std::array<float, Count>>& tuples) {
     for (const auto& tuple : tuples) {
-      for (const float x : tuple) putFloat(bytes(), x);
+      for (const float x : tuple) putFloat(m_bytes, x);
     }
   }
   void putAll(const std::vector<Triangle>& triangles) {
     for (const Triangle& triangle : triangles) {
-      for (const int corner : triangle) putInt32(bytes(), corner);
+      for (const int corner : triangle) putInt32(m_bytes, corner);
     }
   }
 
   /// Of a frame's nodes: how far each is from where it would be had it gone on as before, less the same of the node
-  /// before it. Low bytes and high bytes apart.
+  /// before it. All low bytes, then all high bytes.
   void putPositions(std::size_t cloth) {
     for (std::size_t i = 0; i < 3; ++i) {
       std::vector<int> last, before;
+      std::string low, high;
       for (const Frame& frame : m_recording.frames) {
         std::vector<int> now;
         for (const Vector3& p : frame.cloths[cloth].positions) now.push_back(axis(i).quantized(p[i], 65535));
         if (last.empty()) last = before = std::vector<int>(now.size(), 0);
-        std::string low, high;
         int left = 0;
         for (std::size_t node = 0; node < now.size(); ++node) {
           const int surprise = now[node] - 2 * last[node] + before[node];
@@ -124,10 +124,10 @@ class Packer {
           putByte(high, rest >> 8U);
           left = surprise;
         }
-        bytes() += low + high;
         before = std::move(last);
         last = std::move(now);
       }
+      m_bytes += low + high;
     }
   }
 
@@ -138,7 +138,7 @@ class Packer {
       int left = 0;
       for (std::size_t node = 0; node < last.size(); ++node) {
         const int now = range.quantized((frame.cloths[cloth].*values)[node], 255);
-        putByte(bytes(), static_cast<std::uint32_t>(now - last[node] - left));
+        putByte(m_bytes, static_cast<std::uint32_t>(now - last[node] - left));
         left = now - last[node];
         last[node] = now;
       }
@@ -146,9 +146,9 @@ class Packer {
   }
 
   void putSolids() {
-    m_run.head["solids"] = nlohmann::json::array();
+    m_head["solids"] = nlohmann::json::array();
     for (const Solid& solid : m_recording.scenery.solids) {
-      m_run.head["solids"].push_back({{"vertices", solid.vertices.size()}, {"triangles", solid.triangles.size()}});
+      m_head["solids"].push_back({{"vertices", solid.vertices.size()}, {"triangles", solid.triangles.size()}});
       putAll(solid.vertices);
       putAll(solid.normals);
       putAll(solid.triangles);
@@ -166,11 +166,11 @@ class Packer {
         const std::vector<Rod> some = rods[i].at(frame.cloths[i], m_recording.scenery.grounds);
         all.insert(all.end(), some.begin(), some.end());
       }
-      putUint16(bytes(), static_cast<int>(all.size()));
+      putUint16(m_bytes, static_cast<int>(all.size()));
       for (const Rod& rod : all) {
-        for (const float x : rod.from) putFloat(bytes(), x);
-        for (const float x : rod.to) putFloat(bytes(), x);
-        putFloat(bytes(), rod.radius);
+        for (const float x : rod.from) putFloat(m_bytes, x);
+        for (const float x : rod.to) putFloat(m_bytes, x);
+        putFloat(m_bytes, rod.radius);
       }
     }
   }
@@ -180,26 +180,27 @@ class Packer {
     for (const Frame& frame : m_recording.frames) {
       for (const Drop& drop : frame.drops) radius.high = std::max(radius.high, drop.radius);
     }
-    m_run.head["largestDrop"] = radius.high;
+    m_head["largestDrop"] = radius.high;
     for (const Frame& frame : m_recording.frames) {
       const std::size_t count = std::min<std::size_t>(frame.drops.size(), 65535);
-      putUint16(bytes(), static_cast<int>(count));
+      putUint16(m_bytes, static_cast<int>(count));
       for (std::size_t drop = 0; drop < count; ++drop) {
         for (std::size_t i = 0; i < 3; ++i) {
-          putUint16(bytes(), axis(i).quantized(frame.drops[drop].position[i], 65535));
+          putUint16(m_bytes, axis(i).quantized(frame.drops[drop].position[i], 65535));
         }
-        putUint16(bytes(), radius.quantized(frame.drops[drop].radius, 65535));
+        putUint16(m_bytes, radius.quantized(frame.drops[drop].radius, 65535));
       }
     }
   }
 
   const Recording& m_recording;
   const Bounds m_box;
-  PackedRun m_run;
+  nlohmann::json& m_head;
+  std::string m_bytes;
 };
 
 }  // namespace
 
-PackedRun packed(const Recording& recording) { return Packer(recording).pack(); }
+std::string packed(const Recording& recording, nlohmann::json& head) { return Packer(recording, head).pack(); }
 
 }  // namespace pictures

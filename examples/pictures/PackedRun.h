@@ -9,13 +9,9 @@
 
 namespace pictures {
 
-/// A recording in few bytes, for page/unpack.js.
-struct PackedRun {
-  nlohmann::json head;  ///< counts and ranges that the bytes need to be understood
-  std::string bytes;    ///< not yet compressed, but so that deflate makes little of them
-};
-
+/// A recording in few bytes, for page/unpack.js: not yet compressed, but so that deflate makes little of them.
 /// Positions have 16 bits per axis, in a box around the run; saturation, stretch and speed have 8.
-PackedRun packed(const Recording& recording);
+/// @param head  gets the counts and ranges that the bytes need to be understood
+std::string packed(const Recording& recording, nlohmann::json& head);
 
 }  // namespace pictures

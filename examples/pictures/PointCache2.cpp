@@ -10,7 +10,8 @@ std::string header(std::size_t pointCount, std::size_t sampleCount) {
   constexpr int version = 1;
   constexpr float startFrame = 0;
   constexpr float framesPerSample = 1;
-  std::string bytes("POINTCACHE2", 12);  // the zero that ends it is part of it
+  std::string bytes("POINTCACHE2");
+  putByte(bytes, 0);
   putInt32(bytes, version);
   putInt32(bytes, static_cast<int>(pointCount));
   putFloat(bytes, startFrame);

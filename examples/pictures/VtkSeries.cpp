@@ -97,6 +97,7 @@ std::string polyData(const ClothShape& shape, const ClothState& state, double ti
 }  // namespace
 
 void writeVtkSeries(const Recording& recording, const std::string& folder) {
+  const std::string inFolder = folder + "/";
   const std::vector<std::string> names = clothNames(recording);
   std::ostringstream list;
   list.precision(12);
@@ -106,13 +107,13 @@ void writeVtkSeries(const Recording& recording, const std::string& folder) {
     const Frame& frame = recording.frames[i];
     for (std::size_t cloth = 0; cloth < names.size(); ++cloth) {
       const std::string name = numberedName(names[cloth], i, ".vtp");
-      writeFile(folder + "/" + name, polyData(recording.cloths[cloth], frame.cloths[cloth], frame.time));
+      writeFile(inFolder + name, polyData(recording.cloths[cloth], frame.cloths[cloth], frame.time));
       list << "<DataSet timestep=\"" << frame.time << "\" part=\"" << cloth << "\" name=\"" << names[cloth]
            << "\" file=\"" << name << "\"/>\n";
     }
   }
   list << "</Collection>\n</VTKFile>\n";
-  writeFile(folder + "/run.pvd", list.str());
+  writeFile(inFolder + "run.pvd", list.str());
 }
 
 }  // namespace pictures

@@ -7,9 +7,12 @@
 #include "ExportCommand.h"
 #include "FallCommand.h"
 #include "NearestWord.h"
+#include "PlotCommand.h"
 #include "RenderCommand.h"
 #include "RunCommand.h"
 #include "ValidateCommand.h"
+
+#include "../viewer/ViewCommand.h"
 
 #include <CLI/CLI.hpp>
 
@@ -31,11 +34,13 @@ const char* const examples = R"(Examples:
   wetcloth run hanging_towel.json                       run a scene and say what came of it
   wetcloth run flag_wind_100.json --frames pictures     and paint it: pictures/frame_0000.svg, ...
   wetcloth run curtain.json --quality accurate --json result.json
+  wetcloth view rain_on_umbrella_cloth.json             play with it in a window: drag the cloth, change the weather
   wetcloth render flag_wind_100.json --out flag.mp4     a film; .png, .gif, .webm as well; needs no display
   wetcloth render hanging_towel.json --out towel.html   a page: orbit, play, scrub, plots
   wetcloth render dip_and_lift.json --out dip.png --times 0,3,6,9 --size 480x640    a strip of pictures
   wetcloth render hanging_towel.json --out towel.mp4 --compare    plain Bullet, dry and wet side by side
   wetcloth cost flag_wind_100.json                      what each effect of a scene takes, beside Bullet's step
+  wetcloth plot fall --out plots                        the wet and the dry fall as CSV, SVG and PNG
   wetcloth export curtain.json --format vtk --out curtain   for ParaView; for Blender, Houdini, ... see --help
   wetcloth validate *.json                              check scenes without running them
   wetcloth ccd queries.csv.gz --method exact            collision checks against exact answers
@@ -149,6 +154,20 @@ void addCost(CLI::App& app, CostOptions& options, char** arguments) {
   });
 }
 
+void addPlot(CLI::App& app, PlotOptions& options) {
+  CLI::App* const plot =
+      app.add_subcommand("plot", "Plot the paper's numbers beside ours: CSV, with gnuplot SVG and PNG");
+  plot->add_option(
+          "name", options.name,
+          "mass: of a node that soaks; fall: height against time; fps: frames per second; wicking: profile of a "
+          "strip; springs: of the mesh; all")
+      ->check(oneOf("NAME", plotWords()))
+      ->capture_default_str();
+  plot->add_option("--out", options.directory, "Directory for the files, made if it is not there")->required();
+  plot->add_option("--json", options.json, "File for what was made as JSON; - is standard output, with nothing else");
+  plot->callback([&options] { makePlots(options); });
+}
+
 void addExport(CLI::App& app, ExportOptions& options, char** arguments) {
   CLI::App* const command = app.add_subcommand("export", "Run a scene and write it for other programs");
   command->add_option("scene", options.scene, "Scene file (JSON, see docs/scenes.md)")->required();
@@ -166,6 +185,24 @@ void addExport(CLI::App& app, ExportOptions& options, char** arguments) {
       ->check(oneOf("--precision", namesOf(precisionNames())));
   command->add_option("--json", options.json, "File for what was written as JSON; - is standard output, and only that");
   command->callback([&options, arguments] { exportScene(options, arguments); });
+}
+
+void addView(CLI::App& app, viewer::ViewOptions& options, char** arguments) {
+  CLI::App* const view = app.add_subcommand("view", "Play with a scene in a window");
+  view->add_option("scene", options.scene, "Scene file (JSON, see docs/scenes.md)")->required();
+  view->add_option("--size", options.size, "Of the window, WIDTHxHEIGHT [pixels]")->capture_default_str();
+  view->add_flag("--paused", options.paused, "Begin paused");
+  view->add_flag("--compare", options.compare, "Begin with plain Bullet beside the wet cloth");
+  view->add_option("--quality", options.quality,
+                   "Substeps and iterations, as for `wetcloth run`; the window changes both")
+      ->check(oneOf("--quality", namesOf(qualityNames())))
+      ->capture_default_str();
+  view->add_option("--precision", options.precision, "Instead of the scene's own")
+      ->check(oneOf("--precision", namesOf(precisionNames())));
+  view->add_option("--frames", options.frames, "Close the window after so many pictures, one step of the scene each");
+  view->add_option("--screenshot", options.screenshot, "File for the window's last picture, .png");
+  view->add_option("--json", options.json, "File for how it was left, as JSON; - is standard output");
+  view->callback([&options, arguments] { viewer::viewScene(options, arguments); });
 }
 
 void addValidate(CLI::App& app, std::vector<std::string>& files) {
@@ -237,7 +274,9 @@ int runCommandLine(int count, char** arguments) {
   RunOptions run;
   FallOptions fall;
   CostOptions cost;
+  viewer::ViewOptions view;
   CcdOptions ccd;
+  PlotOptions plot;
   ExportOptions exported;
   RenderOptions render;
   std::vector<std::string> files;
@@ -245,7 +284,9 @@ int runCommandLine(int count, char** arguments) {
   addRender(app, render, arguments);
   addFall(app, fall, arguments);
   addCost(app, cost, arguments);
+  addPlot(app, plot);
   addExport(app, exported, arguments);
+  addView(app, view, arguments);
   addValidate(app, files);
   addCcd(app, ccd, arguments);
   try {

@@ -33,6 +33,8 @@ struct FallMode {
 
   /// Time of a fall from `height` by the closed form [s].
   double closedForm(const Case& fall, double height) const;
+  /// How far it has fallen after `time` [s] by the closed form [m].
+  double closedFormFallen(const Case& fall, double time) const;
 };
 
 struct FallResult {

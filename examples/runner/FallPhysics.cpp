@@ -26,6 +26,18 @@ double quadraticDragFallTime(double height, double gravity, double terminalSpeed
   return terminalSpeed / gravity * (x + std::log1p(std::sqrt(-std::expm1(-2 * x))));
 }
 
+double vacuumFall(double time, double gravity) { return gravity * time * time / 2; }
+
+double linearDragFall(double time, double gravity, double timeConstant) {
+  return gravity * timeConstant * (time + timeConstant * std::expm1(-time / timeConstant));
+}
+
+double quadraticDragFall(double time, double gravity, double terminalSpeed) {
+  // ln cosh(x), written so that cosh(x) need not fit a double
+  const double x = gravity * time / terminalSpeed;
+  return terminalSpeed * terminalSpeed / gravity * (x + std::log1p(std::exp(-2 * x)) - std::log(2.0));
+}
+
 double terminalSpeed(double arealDensity, double gravity, double airDensity, double dragCoefficient) {
   return std::sqrt(2 * arealDensity * gravity / (airDensity * dragCoefficient));
 }

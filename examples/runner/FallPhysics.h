@@ -15,6 +15,11 @@ double linearDragFallTime(double height, double gravity, double timeConstant);
 /// H = (v^2 / g) ln cosh(g t / v).
 double quadraticDragFallTime(double height, double gravity, double terminalSpeed);
 
+/// The distances fallen after a time from rest, of which the three times above are the inverses.
+double vacuumFall(double time, double gravity);
+double linearDragFall(double time, double gravity, double timeConstant);
+double quadraticDragFall(double time, double gravity, double terminalSpeed);
+
 /// Terminal speed of a flat sheet that falls broadside: sqrt(2 sigma g / (rho C_d)).
 double terminalSpeed(double arealDensity, double gravity, double airDensity, double dragCoefficient);
 

@@ -153,6 +153,7 @@ Recorder::Recorder(const SceneWorld& world) : m_scenery(sceneryOf(world.scene())
 
 void Recorder::take(const SceneWorld& world, double time, pictures::Frame& frame) const {
   frame.time = time;
+  frame.drops = world.drops().at(time);
   frame.cloths.resize(m_cloths.size());
   for (std::size_t i = 0; i < m_cloths.size(); ++i) {
     ClothState& state = frame.cloths[i];

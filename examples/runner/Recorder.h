@@ -17,7 +17,7 @@ class Recorder {
   const pictures::Scenery& scenery() const { return m_scenery; }
   const std::vector<pictures::ClothShape>& cloths() const { return m_cloths; }
 
-  /// The world as it is now. Reuses the memory of `frame`.
+  /// The world as it is now, and the drops that are falling from its cloths. Reuses the memory of `frame`.
   /// @param world the same one, or another of the same scene
   void take(const SceneWorld& world, double time, pictures::Frame& frame) const;
 

@@ -7,6 +7,7 @@
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -43,7 +44,7 @@ constexpr double planeHalfExtent = 50;
 
 }  // namespace
 
-SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_world(settingsOf(scene)) {
+SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_world(settingsOf(scene)), m_drops(scene) {
   if (kind == Kind::wet) m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_world.world());
   if (scene.water) addWater(*scene.water);
   for (const Collider& collider : scene.colliders) addCollider(collider);
@@ -82,8 +83,9 @@ void SceneWorld::addWater(const WaterScene& water) {
 void SceneWorld::addEffects(std::size_t index, wetcloth::WetCloth& wet) {
   for (const EffectScene& effect : m_scene.cloths[index].effects) {
     atPointer(m_scene, "/cloths/" + std::to_string(index) + "/effects/" + effect.key, [&] {
-      auto* audit = dynamic_cast<wetcloth::CollisionAudit*>(&effect.addTo(wet, m_colliders));
-      if (audit != nullptr) m_audits.push_back(audit);
+      wetcloth::Effect& added = effect.addTo(wet, m_colliders);
+      if (auto* audit = dynamic_cast<wetcloth::CollisionAudit*>(&added)) m_audits.push_back(audit);
+      if (auto* dripping = dynamic_cast<wetcloth::Dripping*>(&added)) m_drops.follow(*dripping);
     });
   }
 }
@@ -108,14 +110,37 @@ void SceneWorld::addCollider(const Collider& collider) {
   }
 }
 
-void SceneWorld::step() {
+void SceneWorld::step(const BeforeSubstep& before) {
   const btScalar dt = btScalar(m_scene.step / m_scene.substeps);
-  for (int i = 0; i < m_scene.substeps; ++i) {
-    ++m_substeps;
-    const double time = m_substeps * m_scene.step / m_scene.substeps;
+  for (int i = 1; i <= m_scene.substeps; ++i) {
+    const double time = (m_steps * m_scene.substeps + i) * m_scene.step / m_scene.substeps;
     for (Twist& twist : m_twists) twist.moveTo(time);
     for (Motion& motion : m_motions) motion.moveTo(time);
+    if (before) before(dt);
     m_world.substep(dt);
+  }
+  ++m_steps;
+  m_drops.forgetLanded(m_steps * m_scene.step);
+}
+
+void SceneWorld::setIterations(int iterations) {
+  m_world.world().getSolverInfo().m_numIterations = iterations;
+  for (btSoftBody* body : m_bodies) body->m_cfg.piterations = iterations;
+}
+
+void SceneWorld::continueFrom(const SceneWorld& other) {
+  m_steps = other.m_steps;
+  for (std::size_t i = 0; i < m_bodies.size(); ++i) {
+    for (int n = 0; n < m_bodies[i]->m_nodes.size(); ++n) {
+      btSoftBody::Node& node = m_bodies[i]->m_nodes[n];
+      const btSoftBody::Node& there = other.m_bodies[i]->m_nodes[n];
+      node.m_x = there.m_x;
+      node.m_q = there.m_q;
+      node.m_v = there.m_v;
+      node.m_vn = there.m_vn;
+      node.m_n = there.m_n;
+    }
+    m_bodies[i]->updateBounds();
   }
 }
 

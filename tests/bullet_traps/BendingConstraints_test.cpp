@@ -8,7 +8,10 @@
 #include <limits>
 #include <set>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 // The fact.
@@ -49,4 +52,4 @@ TEST(BendingConstraints, OurPatchIsRightAboveBulletsLimit) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 const btVector3 kNoGravity(0, 0, 0);
@@ -93,4 +96,4 @@ TEST(BulletAero, WeLeaveItsSettingsAlone) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

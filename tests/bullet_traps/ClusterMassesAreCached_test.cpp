@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 constexpr int kClusters = 6;
@@ -110,4 +113,4 @@ TEST_P(ClusterMassesAreCached, RunsLikeABodyBuiltHeavy) {
 WETCLOTH_IN_EVERY_WORLD(ClusterMassesAreCached);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

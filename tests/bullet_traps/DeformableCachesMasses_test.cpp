@@ -5,7 +5,10 @@
 
 #include <BulletSoftBody/btDeformableBackwardEulerObjective.h>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 constexpr double kTolerance = kIsDouble ? 1e-12 : 1e-5;
@@ -144,4 +147,4 @@ INSTANTIATE_TEST_SUITE_P(, DeformableCachesMasses,
                          [](const auto& test) { return std::string(nameOf(test.param)); });
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 const btVector3 kNoGravity(0, 0, 0);
@@ -54,4 +57,4 @@ TEST_P(DeformableIgnoresForces, OurWindMovesTheClothInEveryWorld) {
 WETCLOTH_IN_EVERY_WORLD(DeformableIgnoresForces);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 struct Push {
@@ -79,4 +82,4 @@ TEST(DeformableImplicit, WithProjectionItFalls) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 const btVector3 kNoGravity(0, 0, 0);
@@ -88,4 +91,4 @@ INSTANTIATE_TEST_SUITE_P(, DeformableSleep, testing::Values(WorldKind::deformabl
                          [](const auto& test) { return std::string(nameOf(test.param)); });
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 constexpr double kAir = 10;  // [m/s]
@@ -48,4 +51,4 @@ TEST_P(ExplicitWindOvershoots, TheDefaultDoesNot) {
 WETCLOTH_IN_EVERY_WORLD(ExplicitWindOvershoots);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 constexpr double kDt = 1.0 / 240;  // not a float
@@ -45,4 +48,4 @@ TEST_P(WaterKeepsItsDigits, WhateverTheSolverDoesToTheStep) {
 WETCLOTH_IN_EVERY_WORLD(WaterKeepsItsDigits);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 const btVector3 kNoGravity(0, 0, 0);
@@ -67,4 +70,4 @@ TEST_P(OneEarlyPush, Lasts) {
 WETCLOTH_IN_EVERY_WORLD(OneEarlyPush);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 constexpr double kTimesAsHeavy = 6;
@@ -79,4 +82,4 @@ TEST_P(LinkConstants, AreLeftAloneWhenNoMassChanged) {
 WETCLOTH_IN_EVERY_WORLD(LinkConstants);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

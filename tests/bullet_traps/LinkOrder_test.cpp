@@ -6,7 +6,10 @@
 
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 std::unique_ptr<btSoftBody> bulletPatch(btSoftBodyWorldInfo& info) {
@@ -63,4 +66,4 @@ TEST_P(LinkOrderIsKept, OfABodyThatIsNotOurs) {
 WETCLOTH_IN_EVERY_WORLD(LinkOrderIsKept);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

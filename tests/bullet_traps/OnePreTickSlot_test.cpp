@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 const btVector3 kNoGravity(0, 0, 0);
@@ -96,4 +99,4 @@ TEST_P(PickingGoesOn, AfterWeLeft) {
 WETCLOTH_IN_EVERY_WORLD(PickingGoesOn);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 constexpr double kTolerance = kIsDouble ? 1e-11 : 1e-4;
@@ -94,4 +97,4 @@ TEST_P(PoseWeightsAreCached, RunsLikeABodyBuiltHeavy) {
 WETCLOTH_IN_EVERY_WORLD(PoseWeightsAreCached);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 constexpr int kSteps = 240;
@@ -55,4 +58,4 @@ TEST_P(SetMassResetsRestLengths, WettingByHandLeavesThemAlone) {
 WETCLOTH_IN_EVERY_WORLD(SetMassResetsRestLengths);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 struct Ticks {
@@ -95,4 +98,4 @@ TEST_P(SubstepAndTimescale, GravityToldIsTheOneThatBulletAdds) {
 WETCLOTH_IN_EVERY_WORLD(SubstepAndTimescale);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 class UniformMassIsInvisible : public testing::TestWithParam<WorldKind> {};
@@ -54,4 +57,4 @@ INSTANTIATE_TEST_SUITE_P(, UniformMassIsInvisible, testing::Values(WorldKind::so
                          [](const auto& test) { return std::string(nameOf(test.param)); });
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

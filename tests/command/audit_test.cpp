@@ -4,6 +4,7 @@
 
 #include <string>
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -70,3 +71,5 @@ TEST(Audit, AFlagThatBulletDoesNotHaveIsRefused) {
   scene["cloths"][0]["collisions"] = {"VF_SELF"};
   EXPECT_NE(refusal(scene).find("VF_SELF"), std::string::npos);
 }
+
+}  // namespace wetcloth_test

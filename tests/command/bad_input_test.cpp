@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -213,3 +214,5 @@ TEST(CommandBadInput, Usage) {
     expectRefusal(runWetcloth({"fall", "--height", height}), {"--height"});
   }
 }
+
+}  // namespace wetcloth_test

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -288,3 +289,5 @@ INSTANTIATE_TEST_SUITE_P(Collections, CcdTier,
                                          Expected{"real", "exact"}, Expected{"cloth", "fast"},
                                          Expected{"cloth", "conservative"}, Expected{"cloth", "exact"}),
                          [](const auto& tested) { return tested.param.collection + "_" + tested.param.method; });
+
+}  // namespace wetcloth_test

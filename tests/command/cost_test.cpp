@@ -11,6 +11,7 @@
 
 // What a machine takes is never asserted here, only what is said about it.
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -178,3 +179,5 @@ TEST(Cost, AWorldThatFailsWithoutAnEffectEndsTheMeasurement) {
   EXPECT_EQ(namesIn(result), (std::vector<std::string>{"absorption", "wind"}));
   expectConsistent(result);
 }
+
+}  // namespace wetcloth_test

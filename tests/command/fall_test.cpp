@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -87,3 +88,5 @@ TEST(Fall, TableShowsEveryCaseWithItsClosedForm) {
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
   }
 }
+
+}  // namespace wetcloth_test

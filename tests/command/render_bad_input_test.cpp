@@ -12,6 +12,7 @@
 
 // Each is refused in one line that names the option, the value and what is allowed, and leaves no file.
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -116,3 +117,5 @@ TEST(RenderBadInput, SceneThatFailsLeavesNoPicture) {
   expectRefusal(runWetcloth({"render", directory.path("none.json"), "--out", directory.path("a.png")}), {"none.json"});
   EXPECT_TRUE(namesIn(directory.path("")).empty());
 }
+
+}  // namespace wetcloth_test

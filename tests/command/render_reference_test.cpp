@@ -10,6 +10,7 @@
 // Pictures against those in tests/data/pictures. After a change of how things look: look at the new ones, and store
 // them with WETCLOTH_STORE_PICTURES=1.
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -82,3 +83,5 @@ TEST_F(RenderReference, MistakesAreLargerThanTheTolerance) {
     EXPECT_GT(meanDifference(reference, picture), 2 * tolerance);
   }
 }
+
+}  // namespace wetcloth_test

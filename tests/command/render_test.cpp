@@ -9,6 +9,7 @@
 
 // wetcloth render: what is made, and that nothing half-made is left.
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -146,3 +147,5 @@ TEST_F(Render, FilmWithoutFfmpegSaysWhatToInstall) {
   expectRefusal(outcome, {"--out = \"" + path("a.gif") + "\"", "apt install ffmpeg"});
   EXPECT_EQ(namesIn(path("")), std::vector<std::string>{"scene.json"});
 }
+
+}  // namespace wetcloth_test

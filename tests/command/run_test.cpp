@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -207,3 +208,5 @@ TEST(Validate, SaysOkForEachExampleScene) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, expected);
 }
+
+}  // namespace wetcloth_test

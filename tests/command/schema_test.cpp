@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -82,3 +83,5 @@ TEST(Schema, RefusesATypoAtEachDepth) {
     EXPECT_NE(complaints({directory.write("scene.json", scene.dump())}), "") << pointer;
   }
 }
+
+}  // namespace wetcloth_test

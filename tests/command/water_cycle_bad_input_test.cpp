@@ -9,6 +9,7 @@
 
 // What a scene may get wrong in the effects of the water cycle, in its water, and in a cloth's motion.
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -292,3 +293,5 @@ TEST(WaterCycleBadInput, MotionsThatCannotBe) {
     expectRefused(scene, motion, clothOf(scene)["motion"], "moves the cloth's pins, and it has none");
   }
 }
+
+}  // namespace wetcloth_test

@@ -8,6 +8,7 @@
 
 // What wetness and water do to the cloth, and how a scene moves it.
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -185,3 +186,5 @@ TEST(WaterCycleCloth, TheSummaryHasALineForDripsAndOneForRunOff) {
   EXPECT_EQ(neither.find("\nrun-off "), std::string::npos) << neither;
   EXPECT_EQ(neither.find("-0.0"), std::string::npos) << neither;
 }
+
+}  // namespace wetcloth_test

@@ -10,6 +10,7 @@
 // The schema's defaults are the library's, and each key reaches it: one cloth with all effects of the water cycle, so
 // placed that each has something to do, told apart by the hash of its state.
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -204,3 +205,5 @@ TEST(WaterCycleKeys, TheMassOfADropIsInTheCountOfDrops) {
   clothOf(scene)["effects"]["dripping"]["drop_mass_kg"] = 1e-5;
   EXPECT_NEAR(runScene(scene).at("drips").at("count").get<int>(), 5 * usual, usual);
 }
+
+}  // namespace wetcloth_test

@@ -9,6 +9,7 @@
 // What brings water, moves it and takes it away, as a scene asks for it. Node by node it is computed in double, and
 // areas come from float32 positions: 1e-5 of it is rounding.
 
+namespace wetcloth_test {
 namespace {
 
 using namespace command;
@@ -255,3 +256,5 @@ TEST(WaterCycle, DryingFollowsTheAirAndBothStages) {
     EXPECT_NEAR(ledger(result, "held"), left, rounding * capacity) << air;
   }
 }
+
+}  // namespace wetcloth_test

@@ -7,7 +7,10 @@
 
 #include <string>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 using wetcloth::CollisionAudit;
@@ -296,4 +299,4 @@ TEST(CollisionAuditTier, ExactIsRefusedWhereItIsNotBuilt) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

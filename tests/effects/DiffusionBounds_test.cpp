@@ -2,7 +2,10 @@
 
 #include "tests/support/TransportScene.h"
 
-namespace wetcloth_test::transport {
+namespace wetcloth_test {
+
+using namespace transport;
+
 namespace {
 
 using wetcloth::Diffusion;
@@ -192,4 +195,4 @@ TEST(DiffusionBounds, APinnedNodeHoldsWaterToo) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test::transport
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 #include "bullet_wetcloth/effects/DiffusionSolver.h"
 #include "tests/support/TransportScene.h"
 
-namespace wetcloth_test::transport {
+namespace wetcloth_test {
+
+using namespace transport;
+
 namespace {
 
 using wetcloth::Diffusion;
@@ -242,4 +245,4 @@ TEST(DiffusionClosedForms, AFrontAdvancesWithTheRootOfTime) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test::transport
+}  // namespace wetcloth_test

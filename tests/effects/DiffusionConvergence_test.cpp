@@ -3,7 +3,10 @@
 
 #include "tests/support/TransportScene.h"
 
-namespace wetcloth_test::transport {
+namespace wetcloth_test {
+
+using namespace transport;
+
 namespace {
 
 using wetcloth::Diffusion;
@@ -153,4 +156,4 @@ TEST(DiffusionConvergence, ABentClothWicksLikeAFlatOne) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test::transport
+}  // namespace wetcloth_test

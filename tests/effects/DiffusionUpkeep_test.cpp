@@ -4,7 +4,10 @@
 
 #include <limits>
 
-namespace wetcloth_test::transport {
+namespace wetcloth_test {
+
+using namespace transport;
+
 namespace {
 
 using wetcloth::Diffusion;
@@ -187,4 +190,4 @@ TEST(DiffusionWarp, IsOfAnyLength) {
 WETCLOTH_IN_EVERY_WORLD(DiffusionInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test::transport
+}  // namespace wetcloth_test

@@ -48,6 +48,23 @@ Dripping::Parameters dropsOf(double mass) {
 
 // --- drops ------------------------------------------------------------------------------------------------------
 
+TEST(DrippingDrops, MayBeTakenBySomebodyElseMidRun) {
+  Hung hung(dropsOf(1e-6));
+  for (int i = 0; i < 100; ++i) hung.scene.preTick(1.0 / 240);
+  const std::size_t before = hung.drips.size();
+  EXPECT_GT(before, 0u);
+  long long taken = 0;
+  hung.effect->setOnDrip([&](const Drip&) { ++taken; });
+  for (int i = 0; i < 100; ++i) hung.scene.preTick(1.0 / 240);
+  EXPECT_EQ(hung.drips.size(), before);
+  EXPECT_GT(taken, 0);
+  EXPECT_EQ(hung.effect->drops(), static_cast<long long>(before) + taken);
+  hung.effect->setOnDrip({});
+  const long long drops = hung.effect->drops();
+  for (int i = 0; i < 100; ++i) hung.scene.preTick(1.0 / 240);
+  EXPECT_GT(hung.effect->drops(), drops);  // it drips on, told to nobody
+}
+
 TEST(DrippingDrops, AddUpWithWhatIsPendingToWhatDripped) {
   for (const double dropMass : {0.0, 1e-6, 5e-5, 1e-3, 1.0}) {
     Hung hung(dropsOf(dropMass));

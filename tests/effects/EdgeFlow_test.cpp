@@ -8,7 +8,10 @@
 #include <limits>
 #include <numeric>
 
-namespace wetcloth_test::transport {
+namespace wetcloth_test {
+
+using namespace transport;
+
 namespace {
 
 using wetcloth::FluxLimiter;
@@ -197,4 +200,4 @@ TEST(SparseFactor, SolvesForOneAndForThreeRightHandSidesAlike) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test::transport
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 #include "bullet_wetcloth/effects/Immersion.h"
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 using wetcloth::Immersion;
@@ -147,4 +150,4 @@ TEST_P(ImmersionInWorld, GoesOnWhenTheBodyIsCutEvenIfThereIsNoWaterAtThatMoment)
 WETCLOTH_IN_EVERY_WORLD(ImmersionInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

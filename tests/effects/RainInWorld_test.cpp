@@ -5,7 +5,10 @@
 
 #include <limits>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 using wetcloth::Rain;
@@ -107,4 +110,4 @@ TEST_P(RainInWorld, WritesNoNumberThatIsNone) {
 WETCLOTH_IN_EVERY_WORLD(RainInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -4,7 +4,10 @@
 
 #include <limits>
 
-namespace wetcloth_test::transport {
+namespace wetcloth_test {
+
+using namespace transport;
+
 namespace {
 
 using wetcloth::Seepage;
@@ -95,4 +98,4 @@ TEST(SeepageUpkeep, MakesAsManySubstepsAsItsFastestWaveAsksFor) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test::transport
+}  // namespace wetcloth_test

@@ -2,7 +2,10 @@
 
 #include "tests/support/TransportScene.h"
 
-namespace wetcloth_test::transport {
+namespace wetcloth_test {
+
+using namespace transport;
+
 namespace {
 
 using wetcloth::Diffusion;
@@ -235,4 +238,4 @@ TEST(Seepage, HoldsOnHardMeshesForAnyStep) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test::transport
+}  // namespace wetcloth_test

@@ -7,7 +7,10 @@
 #include <cmath>
 #include <vector>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 using wetcloth::Absorption;
@@ -160,4 +163,4 @@ TEST_P(SoakSoftenShrink, PatchThereAndBack) {
 WETCLOTH_IN_EVERY_WORLD(SoakSoftenShrink);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

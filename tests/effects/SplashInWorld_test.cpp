@@ -8,7 +8,10 @@
 #include <limits>
 #include <string>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 using wetcloth::Splash;
@@ -176,4 +179,4 @@ TEST_P(SplashInWorld, WritesNoNumberThatIsNone) {
 WETCLOTH_IN_EVERY_WORLD(SplashInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -3,7 +3,10 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 constexpr int kNodes = 5;
@@ -180,4 +183,4 @@ TEST_P(LightNodeInAStorm, AStepOfTenSecondsStaysFinite) {
 WETCLOTH_IN_EVERY_WORLD(LightNodeInAStorm);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

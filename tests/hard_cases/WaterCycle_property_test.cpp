@@ -7,7 +7,10 @@
 
 #include <sstream>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 // With a seed of its own each time the suite would not be the same twice.
@@ -179,4 +182,4 @@ TEST(WaterCycleProperty, AnyEffectsInAnyWorld) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

@@ -5,7 +5,10 @@
 
 #include <random>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
+
+using namespace core;
+
 namespace {
 
 /// All effects with ordinary parameters: what comes in is about what goes out, and nothing settles.
@@ -46,4 +49,4 @@ TEST_P(WaterLedger, ClosesAfterAHundredThousandStepsOfEverything) {
 WETCLOTH_IN_EVERY_WORLD(WaterLedger);
 
 }  // namespace
-}  // namespace wetcloth_test::core
+}  // namespace wetcloth_test

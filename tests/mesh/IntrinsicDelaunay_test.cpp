@@ -4,7 +4,10 @@
 
 #include <limits>
 
-namespace wetcloth_test::transport {
+namespace wetcloth_test {
+
+using namespace transport;
+
 namespace {
 
 using wetcloth::delaunayWeights;
@@ -207,4 +210,4 @@ TEST(IntrinsicDelaunay, GivesEachPairOnce) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test::transport
+}  // namespace wetcloth_test

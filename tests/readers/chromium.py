@@ -59,9 +59,10 @@ class Browser:
         return self
 
     def __exit__(self, *_):
-        self._process.terminate()
+        # It ends its own helpers when it is asked to; they would go on writing to the profile otherwise.
+        os.write(self._out, json.dumps({'id': self._next + 1, 'method': 'Browser.close'}).encode() + b'\0')
         try:
-            self._process.wait(10)
+            self._process.wait(20)
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()

@@ -116,12 +116,11 @@ class BulletWorld {
 /// WETCLOTH_IN_EVERY_WORLD(MyTest) once.
 class InEveryWorld : public testing::TestWithParam<WorldKind> {};
 
-#define WETCLOTH_IN_EVERY_WORLD(Suite)                                                                     \
-  INSTANTIATE_TEST_SUITE_P(                                                                                \
-      , Suite,                                                                                             \
-      testing::Values(wetcloth_test::WorldKind::softRigid, wetcloth_test::WorldKind::softMultiBody,        \
-                      wetcloth_test::WorldKind::deformable, wetcloth_test::WorldKind::deformableImplicit), \
-      [](const auto& test) { return std::string(wetcloth_test::nameOf(test.param)); })
+#define WETCLOTH_IN_EVERY_WORLD(Suite)                                                                            \
+  INSTANTIATE_TEST_SUITE_P(, Suite,                                                                               \
+                           testing::Values(WorldKind::softRigid, WorldKind::softMultiBody, WorldKind::deformable, \
+                                           WorldKind::deformableImplicit),                                        \
+                           [](const auto& test) { return std::string(nameOf(test.param)); })
 
 /// True when the tests run with Bullet's float64 build.
 inline constexpr bool kIsDouble = sizeof(btScalar) == sizeof(double);

@@ -180,6 +180,9 @@ try {
     },
     setColouring: (name) => player.setColouring(name),
     play: () => player.setPlaying(true),
+    /** Of each cloth in the frame that is shown, x, y, z of each node [m], and each one's saturation. */
+    state: () => player.renderer.cloths.map((cloth) => (
+      {positions: Array.from(cloth.positions), saturation: Array.from(cloth.saturation)})),
   };
 } catch (error) {
   byId('notice').textContent = `The run cannot be shown: ${error.message}`;

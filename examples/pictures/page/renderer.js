@@ -1,6 +1,7 @@
 const threads = 128;  // across a cloth; real ones would be finer than pixels
 const shadowTexels = 1024;
-const shadowSoftness = 0.012;  // over the size of what there is to see
+const shadowSoftness = 0.009;  // over the size of what there is to see
+const sunk = 0.035;  // over the same: cloth sinks a little into what it lies on
 const stone = {albedo: [0.50, 0.42, 0.33], roughness: 0.7};
 const metal = {albedo: [0.16, 0.17, 0.19], roughness: 0.4};
 const water = {albedo: [0.30, 0.42, 0.50], roughness: 0.15};
@@ -120,8 +121,9 @@ class ShadowMap {
       low[k] = middle - this.width / 2;
       high[k] = middle + this.width / 2;
     }
-    low[2] -= 0.05 * this.width;
-    high[2] += 0.05 * this.width;
+    low[2] -= 0.1 * this.width;
+    high[2] += 0.1 * this.width;
+    this.depth = high[2] - low[2];
     this.clipFromWorld = product(orthographic(low, high), lookFrom([0, 0, 0], right, up, scaled(towardsLamp, -1)));
   }
   fromWorld() {
@@ -252,9 +254,11 @@ class Renderer {
   castShadows(points) {
     this.shadowMap.fit(points, this.lamp);
     this.shadowMap.begin();
-    this.programs.caster.use({clipFromCaster: this.shadowMap.clipFromWorld});
-    for (const cloth of this.cloths) cloth.mesh.draw();
-    for (const mesh of [...this.solids, ...this.bars.meshes]) mesh.draw();
+    const {caster} = this.programs;
+    caster.use({clipFromCaster: this.shadowMap.clipFromWorld, behind: 0});
+    for (const mesh of [...this.cloths.map((cloth) => cloth.mesh), ...this.bars.meshes]) mesh.draw();
+    caster.use({behind: 2 * sunk * this.size / this.shadowMap.depth});
+    for (const mesh of this.solids) mesh.draw();
     this.shadowMap.end();
   }
 
@@ -265,7 +269,8 @@ class Renderer {
     const nearest = Math.max((distance - ball.radius) / 2, 0.01 * ball.radius);
     const lens = perspective(look.tangentX, look.tangentY, nearest, distance + 80 * ball.radius);
     const clipFromWorld = product(lens, lookFrom(look.eye, look.right, look.above, look.forward));
-    this.behind = depthStep(clipFromWorld, look.eye, ball.middle, 0.012 * this.size);
+    this.behind = depthStep(clipFromWorld, look.eye, ball.middle, sunk * this.size);
+    const softness = shadowSoftness * this.size + 2 * this.shadowMap.width / shadowTexels;
     this.block.set({
       clipFromWorld,
       shadowFromWorld: this.shadowMap.fromWorld(),
@@ -275,7 +280,7 @@ class Renderer {
       right: [...look.right, look.tangentX],
       above: [...look.above, look.tangentY],
       forward: [...look.forward, time],
-      shadow: [this.shadowMap.width / shadowTexels, shadowSoftness * this.size / this.shadowMap.width, 0, 0],
+      shadow: [softness, softness / this.shadowMap.width, 0, 0],
     });
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clear(gl.DEPTH_BUFFER_BIT);
@@ -331,7 +336,7 @@ class Renderer {
   drawWater() {
     const {gl, scenery} = this;
     if (scenery.waterLevel === undefined) return;
-    const reach = 1.3 * this.size;
+    const reach = 6 * this.size;
     this.programs.water.use({behind: 0, reach, ...this.squareOn(scenery.up, scenery.waterLevel, reach)});
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);

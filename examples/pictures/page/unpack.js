@@ -34,15 +34,15 @@ async function inflated(base64) {
 /** The inverse of Packer::putPositions in PackedRun.cpp: frame by frame, one axis. */
 function unpackAxis(reader, frames, nodes) {
   const all = new Uint16Array(frames * nodes);
+  const low = reader.take(frames * nodes);
+  const high = reader.take(frames * nodes);
   for (let frame = 0; frame < frames; ++frame) {
-    const low = reader.take(nodes);
-    const high = reader.take(nodes);
     const now = frame * nodes;
     const last = frame > 0 ? now - nodes : -1;
     const before = frame > 1 ? last - nodes : -1;
     let left = 0;
     for (let node = 0; node < nodes; ++node) {
-      const folded = low[node] | high[node] << 8;
+      const folded = low[now + node] | high[now + node] << 8;
       left += folded & 1 ? -(folded + 1) / 2 : folded / 2;
       all[now + node] = left + (last < 0 ? 0 : 2 * all[last + node]) - (before < 0 ? 0 : all[before + node]);
     }
