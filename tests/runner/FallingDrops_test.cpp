@@ -18,8 +18,7 @@ class Dripper {
  public:
   explicit Dripper(const Scene& scene)
       : drops(scene),
-        m_cloth(wetcloth_test::WorldKind::softRigid, scene.gravity, patch(), wetcloth::Fabric::cotton(),
-                wetcloth::Hook::manual) {
+        m_cloth(WorldKind::softRigid, scene.gravity, patch(), wetcloth::Fabric::cotton(), wetcloth::Hook::manual) {
     Dripping::Parameters parameters;
     parameters.holdingSaturation = 0.5;
     parameters.timeConstant = 1e-3;
@@ -31,18 +30,18 @@ class Dripper {
 
   void dripOnce() { m_cloth.preTick(1.0 / 60); }
   long long count() const { return m_dripping->drops(); }
-  wetcloth_test::ClothScene& cloth() { return m_cloth; }
+  ClothScene& cloth() { return m_cloth; }
 
   FallingDrops drops;
 
  private:
   static wetcloth::ClothPatch patch() {
-    wetcloth::ClothPatch patch = wetcloth_test::levelPatch(3, 0.2);
+    wetcloth::ClothPatch patch = levelPatch(3, 0.2);
     patch.origin += btVector3(0, 1, 0);
     return patch;
   }
 
-  wetcloth_test::ClothScene m_cloth;
+  ClothScene m_cloth;
   Dripping* m_dripping = nullptr;
 };
 
@@ -55,7 +54,7 @@ Scene sceneWith(std::vector<runner::Collider> colliders) {
 TEST(FallingDrops, FallAsInAVacuumFromWhereTheyLeft) {
   const Scene scene = sceneWith({});
   Dripper dripper(scene);
-  wetcloth_test::setVelocity(dripper.cloth().body(), btVector3(2, 1, 0));
+  setVelocity(dripper.cloth().body(), btVector3(2, 1, 0));
   dripper.dripOnce();
   ASSERT_GT(dripper.count(), 0);
   for (const double time : {0.0, 0.1, 0.5, 2.9}) {
