@@ -224,7 +224,7 @@ TEST(Export, ARunThatFailsLeavesNothing) {
   EXPECT_EQ(namesIn(directory.path("")), std::vector<std::string>{"scene.json"});
 }
 
-TEST(RenderPage, AShowsOneRun) {
+TEST(RenderPage, ShowsOneRun) {
   const TemporaryDirectory directory;
   const std::string scene = directory.write("scene.json", smallScene().dump());
   const std::string out = directory.path("page.html");
