@@ -8,10 +8,12 @@
 #include "FallCommand.h"
 #include "NearestWord.h"
 #include "PlotCommand.h"
+#include "Quality.h"
 #include "RenderCommand.h"
 #include "RunCommand.h"
 #include "ValidateCommand.h"
 
+#include "../accuracy/AccuracyCommand.h"
 #include "../viewer/ViewCommand.h"
 
 #include <CLI/CLI.hpp>
@@ -40,6 +42,7 @@ const char* const examples = R"(Examples:
   wetcloth render dip_and_lift.json --out dip.png --times 0,3,6,9 --size 480x640    a strip of pictures
   wetcloth render hanging_towel.json --out towel.mp4 --compare    plain Bullet, dry and wet side by side
   wetcloth cost flag_wind_100.json                      what each effect of a scene takes, beside Bullet's step
+  wetcloth accuracy --study wind --out accuracy         what accuracy costs in time: tables and plots
   wetcloth plot fall --out plots                        the wet and the dry fall as CSV, SVG and PNG
   wetcloth export curtain.json --format vtk --out curtain   for ParaView; for Blender, Houdini, ... see --help
   wetcloth validate *.json                              check scenes without running them
@@ -74,16 +77,21 @@ void addRun(CLI::App& app, RunOptions& options, char** arguments) {
       ->needs(frames);
   run->add_option("--json", options.json, "File for the results as JSON; - is standard output, with nothing else");
   run->add_option("--quality", options.quality,
-                  "Substeps and iterations, both: draft halves the scene's own, realtime leaves them as written, "
-                  "accurate doubles them, reference takes 4 times as many")
-      ->check(oneOf("--quality", namesOf(qualityNames())))
-      ->capture_default_str();
+                  "Substeps and iterations, instead of the scene's own: the cheapest that were measured within 10 % "
+                  "(draft), 3 % (realtime) and 1 % (accurate), and the most accurate ones (reference); "
+                  "see docs/accuracy.md")
+      ->check(oneOf("--quality", namesOf(qualityNames())));
+  run->add_option("--error-budget", options.errorBudget,
+                  "The same for an error of your own, e.g. 1e-2, in all that the scene's effects were measured by");
   run->add_option("--duration", options.duration, "Simulated time [s], instead of the scene's own");
   run->add_option("--precision", options.precision, "Instead of the scene's own")
       ->check(oneOf("--precision", namesOf(precisionNames())));
   run->callback([&options, arguments] {
     if (options.frameCount < 1 || options.frameCount > 10000) {
       throw InputError("wetcloth: --frame-count = " + std::to_string(options.frameCount) + ": must be 1 to 10000");
+    }
+    if (options.errorBudget && !options.quality.empty()) {
+      throw InputError("wetcloth: --error-budget and --quality: give one of the two");
     }
     runScene(options, arguments);
   });
@@ -114,8 +122,7 @@ void addRender(CLI::App& app, RenderOptions& options, char** arguments) {
   render->add_flag("--compare", options.compare, "Plain Bullet, the dry scene and the wet one side by side");
   render->add_option("--duration", options.duration, "Simulated time [s], instead of the scene's own");
   render->add_option("--quality", options.quality, "Substeps and iterations, as for `wetcloth run`")
-      ->check(oneOf("--quality", namesOf(qualityNames())))
-      ->capture_default_str();
+      ->check(oneOf("--quality", namesOf(qualityNames())));
   render->add_option("--precision", options.precision, "Instead of the scene's own")
       ->check(oneOf("--precision", namesOf(precisionNames())));
   render->add_option("--json", options.json, "File for what was drawn as JSON; - is standard output, and only that");
@@ -154,6 +161,23 @@ void addCost(CLI::App& app, CostOptions& options, char** arguments) {
   });
 }
 
+void addAccuracy(CLI::App& app, accuracy::AccuracyOptions& options, char** arguments) {
+  CLI::App* const command =
+      app.add_subcommand("accuracy", "Measure how wrong each way to compute is, and what it takes");
+  command
+      ->add_option("--study", options.study,
+                   "One of: absorption, diffusion, splitting, wind, cloth, mesh, collision, paper; precision: all of "
+                   "them, quick, in float32 and float64; alone: all in this precision; all")
+      ->check(oneOf("--study", accuracy::studyWords()))
+      ->capture_default_str();
+  command->add_flag("--quick", options.isQuick, "Fewer and coarser settings, each run once");
+  command->add_option("--out", options.directory, "Directory for plots (CSV, with gnuplot SVG and PNG) and studies.md");
+  command->add_option("--precision", options.precision, "Of Bullet; default is that of this program")
+      ->check(oneOf("--precision", namesOf(precisionNames())));
+  command->add_option("--json", options.json, "File for the results as JSON; - is standard output, with nothing else");
+  command->callback([&options, arguments] { accuracy::studyAccuracy(options, arguments); });
+}
+
 void addPlot(CLI::App& app, PlotOptions& options) {
   CLI::App* const plot =
       app.add_subcommand("plot", "Plot the paper's numbers beside ours: CSV, with gnuplot SVG and PNG");
@@ -179,8 +203,7 @@ void addExport(CLI::App& app, ExportOptions& options, char** arguments) {
   command->add_option("--fps", options.framesPerSecond, "Frames per simulated second")->capture_default_str();
   command->add_option("--duration", options.duration, "Simulated time [s], instead of the scene's own");
   command->add_option("--quality", options.quality, "Substeps and iterations, as for `wetcloth run`")
-      ->check(oneOf("--quality", namesOf(qualityNames())))
-      ->capture_default_str();
+      ->check(oneOf("--quality", namesOf(qualityNames())));
   command->add_option("--precision", options.precision, "Instead of the scene's own")
       ->check(oneOf("--precision", namesOf(precisionNames())));
   command->add_option("--json", options.json, "File for what was written as JSON; - is standard output, and only that");
@@ -195,8 +218,7 @@ void addView(CLI::App& app, viewer::ViewOptions& options, char** arguments) {
   view->add_flag("--compare", options.compare, "Begin with plain Bullet beside the wet cloth");
   view->add_option("--quality", options.quality,
                    "Substeps and iterations, as for `wetcloth run`; the window changes both")
-      ->check(oneOf("--quality", namesOf(qualityNames())))
-      ->capture_default_str();
+      ->check(oneOf("--quality", namesOf(qualityNames())));
   view->add_option("--precision", options.precision, "Instead of the scene's own")
       ->check(oneOf("--precision", namesOf(precisionNames())));
   view->add_option("--frames", options.frames, "Close the window after so many pictures, one step of the scene each");
@@ -277,6 +299,7 @@ int runCommandLine(int count, char** arguments) {
   viewer::ViewOptions view;
   CcdOptions ccd;
   PlotOptions plot;
+  accuracy::AccuracyOptions studied;
   ExportOptions exported;
   RenderOptions render;
   std::vector<std::string> files;
@@ -284,6 +307,7 @@ int runCommandLine(int count, char** arguments) {
   addRender(app, render, arguments);
   addFall(app, fall, arguments);
   addCost(app, cost, arguments);
+  addAccuracy(app, studied, arguments);
   addPlot(app, plot);
   addExport(app, exported, arguments);
   addView(app, view, arguments);

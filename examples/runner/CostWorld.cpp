@@ -1,9 +1,9 @@
 #include "CostWorld.h"
 
+#include "ProcessorTime.h"
+
 #include <algorithm>
 #include <cctype>
-#include <chrono>
-#include <ctime>
 #include <functional>
 #include <memory>
 
@@ -29,17 +29,6 @@ void removeEffects(wetcloth::WetCloth& cloth, const std::function<bool(const wet
   for (wetcloth::Effect* effect : unwanted) cloth.remove(*effect);
 }
 
-/// Processor time of this thread [s]; where there is no such clock, time.
-double now() {
-#ifdef CLOCK_THREAD_CPUTIME_ID
-  timespec time{};
-  if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time) == 0) {
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  }
-#endif
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 }  // namespace
 
 /// The last effect of the last cloth: when it runs, our part of the step is over. Bullet's worlds call us before they
@@ -48,7 +37,7 @@ class CostWorld::Stopwatch : public wetcloth::Effect {
  public:
   const char* name() const override { return "Stopwatch"; }
   wetcloth::Stage stage() const override { return wetcloth::Stage::elasticity; }
-  void apply(wetcloth::WetCloth&, const wetcloth::Step&) override { m_time = now(); }
+  void apply(wetcloth::WetCloth&, const wetcloth::Step&) override { m_time = processorTime(); }
   double time() const { return m_time; }
 
  private:
@@ -76,9 +65,9 @@ CostWorld CostWorld::timed(const Scene& scene, const std::string& without) {
 }
 
 CostWorld::Seconds CostWorld::step() {
-  const double start = now();
+  const double start = processorTime();
   m_world->step();
-  const double end = now();
+  const double end = processorTime();
   return {end - start, m_stopwatch == nullptr ? 0 : m_stopwatch->time() - start};
 }
 

@@ -1,5 +1,6 @@
 #include "Plot.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -25,6 +26,7 @@ std::string styleOf(const PlotSeries& series) {
   const std::string colour = " linecolor rgb " + quoted(series.colour);
   switch (series.mark) {
     case PlotSeries::Mark::line: return "lines linewidth 2.5" + colour;
+    case PlotSeries::Mark::labelled: return "linespoints pointtype 7 pointsize 0.8 linewidth 1.2" + colour;
     case PlotSeries::Mark::points: return "points pointtype 7 pointsize 0.9" + colour;
     case PlotSeries::Mark::reference: break;
   }
@@ -35,8 +37,12 @@ std::string curvesOf(const Plot& plot, const std::string& csv) {
   std::string curves;
   for (const PlotSeries& series : plot.series) {
     curves += curves.empty() ? "plot " : ", \\\n     ";
-    curves += quoted(csv) + " skip 1 using (strcol(1) eq " + quoted(series.name) + " ? $2 : NaN):3 with " +
-              styleOf(series) + (series.legend.empty() ? " notitle" : " title " + quoted(series.legend));
+    const std::string rows = quoted(csv) + " skip 1 using (strcol(1) eq " + quoted(series.name) + " ? $2 : NaN):3";
+    curves +=
+        rows + " with " + styleOf(series) + (series.legend.empty() ? " notitle" : " title " + quoted(series.legend));
+    if (series.mark != PlotSeries::Mark::labelled) continue;
+    curves += ", \\\n     " + rows + ":4 with labels left offset 0.6,0.4 font ',9' textcolor rgb " +
+              quoted(series.colour) + " notitle";
   }
   return curves + "\n";
 }
@@ -44,10 +50,14 @@ std::string curvesOf(const Plot& plot, const std::string& csv) {
 }  // namespace
 
 std::string csvOf(const Plot& plot) {
-  std::string text = "series;" + plot.xColumn + ";" + plot.yColumn + "\n";
+  const bool hasLabels = std::any_of(plot.series.begin(), plot.series.end(),
+                                     [](const PlotSeries& series) { return !series.labels.empty(); });
+  std::string text = "series;" + plot.xColumn + ";" + plot.yColumn + (hasLabels ? ";label\n" : "\n");
   for (const PlotSeries& series : plot.series) {
     for (std::size_t i = 0; i < series.x.size(); ++i) {
-      text += series.name + ";" + numberText(series.x[i]) + ";" + numberText(series.y[i]) + "\n";
+      text += series.name + ";" + numberText(series.x[i]) + ";" + numberText(series.y[i]);
+      if (hasLabels) text += ";" + (series.labels.empty() ? "" : series.labels[i]);
+      text += "\n";
     }
   }
   return text;

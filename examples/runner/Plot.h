@@ -10,6 +10,7 @@ struct PlotSeries {
   enum class Mark {
     line,
     points,
+    labelled,  ///< points on a line, each with its label
     reference  ///< a closed form, a limit: a thin dashed line
   };
 
@@ -19,6 +20,7 @@ struct PlotSeries {
   std::string colour;     ///< "#rrggbb"
   std::vector<double> x;  ///< a gap in the line where it is NaN
   std::vector<double> y;
+  std::vector<std::string> labels = {};  ///< one for each point, or none at all
 
   void add(double abscissa, double ordinate) {
     x.push_back(abscissa);
@@ -45,7 +47,8 @@ struct Plot {
   std::vector<PlotSeries> series;
 };
 
-/// The curves one below the other: a row is `series;x;y`, after one that names the columns.
+/// The curves one below the other: a row is `series;x;y`, after one that names the columns; `series;x;y;label` when a
+/// series has labels.
 std::string csvOf(const Plot& plot);
 
 /// What draws the plot from its CSV file in gnuplot, to pictures as SVG and as PNG.

@@ -1,10 +1,12 @@
 #include "RunCommand.h"
 
 #include "DripRecord.h"
+#include "Errors.h"
 #include "FiniteState.h"
 #include "FrameWriter.h"
 #include "JsonOutput.h"
 #include "Progress.h"
+#include "Quality.h"
 #include "RunReport.h"
 #include "SceneWorld.h"
 
@@ -13,6 +15,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 namespace runner {
 namespace {
@@ -53,10 +56,31 @@ class Run {
   double m_plainSeconds = 0;
 };
 
+/// None when the scene decides by itself. Throws InputError when nothing that was measured is within the budget.
+std::optional<SteppingChoice> chooseStepping(const RunOptions& options, Scene& scene) {
+  if (!options.errorBudget) {
+    if (scene.quality.empty()) return std::nullopt;
+    return steppingOf(scene, valueOf(qualityNames(), scene.quality));
+  }
+  const SteppingChoice choice = cheapestStepping(studiesOf(scene), *options.errorBudget);
+  if (!(choice.largestError() <= *options.errorBudget)) {
+    char text[240];
+    std::snprintf(text, sizeof text,
+                  "wetcloth: --error-budget = %g: must be at least %.2g for this scene, which %s of %s allows",
+                  *options.errorBudget, choice.largestError(), choice.worst().study.study.c_str(),
+                  choice.worst().study.method.c_str());
+    throw InputError(text);
+  }
+  apply(choice, scene);
+  scene.quality = "error budget";
+  return choice;
+}
+
 }  // namespace
 
 void runScene(const RunOptions& options, char** arguments) {
-  const Scene scene = readScene(options, arguments);
+  Scene scene = readScene(options, arguments);
+  const std::optional<SteppingChoice> stepping = chooseStepping(options, scene);
   JsonOutput output(options.json);
   const int steps = std::max(1, static_cast<int>(std::lround(scene.duration / scene.step)));
   FrameWriter frames(options.frames, options.frameCount, steps);
@@ -74,7 +98,8 @@ void runScene(const RunOptions& options, char** arguments) {
     frames.write(run.world());
   }
   run.finish();
-  const RunReport report(run.world(), run.times(), options.quality, drips);
+  RunReport report(run.world(), run.times(), drips);
+  if (stepping) report.explain(*stepping);
   output.write(report.json());
   if (output.ownsStandardOutput()) return;
   std::fputs(report.summary().c_str(), stdout);

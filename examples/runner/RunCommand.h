@@ -2,6 +2,7 @@
 
 #include "SceneOptions.h"
 
+#include <optional>
 #include <string>
 
 namespace runner {
@@ -9,6 +10,7 @@ namespace runner {
 struct RunOptions : SceneOptions {
   std::string frames;  ///< directory; empty: no pictures
   int frameCount = 12;
+  std::optional<double> errorBudget;  ///< none: as the scene or its quality says
   std::string json;
 };
 

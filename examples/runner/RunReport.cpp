@@ -26,6 +26,8 @@ std::optional<wetcloth::AuditTotals> sumOf(const std::vector<wetcloth::Collision
   return sum;
 }
 
+std::string qualityOf(const Scene& scene) { return scene.quality.empty() ? "scene" : scene.quality; }
+
 /// To a tenth of a gram, and no "-0.0" for what rounding has left below nothing.
 double grams(double kilograms) {
   const double tenths = std::round(1e4 * kilograms);
@@ -34,11 +36,9 @@ double grams(double kilograms) {
 
 }  // namespace
 
-RunReport::RunReport(const SceneWorld& world, const RunTimes& times, const std::string& quality,
-                     const DripRecord& drips)
+RunReport::RunReport(const SceneWorld& world, const RunTimes& times, const DripRecord& drips)
     : m_scene(world.scene()),
       m_times(times),
-      m_quality(quality),
       m_hash(stateHash(world)),
       m_drips(drips),
       m_audit(sumOf(world.audits())),
@@ -87,11 +87,16 @@ nlohmann::ordered_json RunReport::json() const {
   json["file"] = m_scene.file;
   json["world"] = nameOf(m_scene.world);
   json["precision"] = nameOf(ownPrecision);
-  json["quality"] = m_quality;
+  json["quality"] = qualityOf(m_scene);
   json["steps"] = m_times.steps;
   json["dt"] = m_scene.step;
   json["substeps"] = m_scene.substeps;
   json["iterations"] = m_scene.iterations;
+  if (m_stepping) {
+    for (const SteppingChoice::Expectation& expectation : m_stepping->expected) {
+      json["expected_errors"][expectation.study.study] = expectation.error;
+    }
+  }
   json["nodes"] = m_nodes;
   json["links"] = m_links;
   json["effects"] = m_effects;
@@ -128,6 +133,18 @@ std::string RunReport::waterLines() const {
   return lines;
 }
 
+std::string RunReport::steppingLine() const {
+  if (!m_stepping) return "";
+  std::string line;
+  for (const SteppingChoice::Expectation& expectation : m_stepping->expected) {
+    char text[120];
+    std::snprintf(text, sizeof text, "%s%s %.2g %%", line.empty() ? "" : ", ", expectation.study.study.c_str(),
+                  100 * expectation.error);
+    line += text;
+  }
+  return "measured error " + line + "\n";
+}
+
 std::string RunReport::auditLine() const {
   if (!m_audit) return "";
   char text[200];
@@ -150,14 +167,14 @@ std::string RunReport::summary() const {
       "%-15s(%.3f, %.3f, %.3f) m\n"
       "%-15sspeed %.3g m/s, link length %.3f of its rest length\n"
       "%-15s%s\n",
-      "scene", m_scene.name.c_str(), nameOf(m_scene.world).c_str(), nameOf(ownPrecision).c_str(), m_quality.c_str(),
-      "steps", m_times.steps, m_scene.step, m_times.steps * m_scene.step, m_scene.substeps, m_scene.iterations, "mesh",
-      m_nodes, m_links, "effects", m_effects.empty() ? "none" : joined(m_effects).c_str(), "time",
-      m_times.wetMilliseconds, m_times.plainMilliseconds,
+      "scene", m_scene.name.c_str(), nameOf(m_scene.world).c_str(), nameOf(ownPrecision).c_str(),
+      qualityOf(m_scene).c_str(), "steps", m_times.steps, m_scene.step, m_times.steps * m_scene.step, m_scene.substeps,
+      m_scene.iterations, "mesh", m_nodes, m_links, "effects", m_effects.empty() ? "none" : joined(m_effects).c_str(),
+      "time", m_times.wetMilliseconds, m_times.plainMilliseconds,
       m_times.plainMilliseconds > 0 ? m_times.wetMilliseconds / m_times.plainMilliseconds : 0., waterLines().c_str(),
       "saturation", m_saturation.min, m_saturation.max, m_saturation.mean, "centre of mass", m_moment[0] / m_mass,
       m_moment[1] / m_mass, m_moment[2] / m_mass, "largest", m_maxSpeed, m_maxStretch, "state hash", m_hash.c_str());
-  return text + auditLine();
+  return text + steppingLine() + auditLine();
 }
 
 }  // namespace runner

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "DripRecord.h"
+#include "MeasuredFront.h"
 #include "Saturation.h"
 #include "SceneWorld.h"
 
@@ -21,7 +22,10 @@ struct RunTimes {
 /// What a run came to.
 class RunReport {
  public:
-  RunReport(const SceneWorld& world, const RunTimes& times, const std::string& quality, const DripRecord& drips);
+  RunReport(const SceneWorld& world, const RunTimes& times, const DripRecord& drips);
+
+  /// Why the scene was stepped as it was, and how far off that may be.
+  void explain(const SteppingChoice& stepping) { m_stepping = stepping; }
 
   nlohmann::ordered_json json() const;
   /// The same, short, for people.
@@ -32,10 +36,11 @@ class RunReport {
   void measureCloth(const wetcloth::WetCloth& cloth);
   std::string waterLines() const;
   std::string auditLine() const;
+  std::string steppingLine() const;
 
   const Scene& m_scene;
   RunTimes m_times;
-  std::string m_quality;
+  std::optional<SteppingChoice> m_stepping;
   std::string m_hash;
   DripRecord m_drips;
   int m_nodes = 0;

@@ -133,6 +133,7 @@ struct Scene {
   int iterations = 10;
   double duration = 5;  ///< [s]
   bool implicit = false;
+  std::string quality;  ///< a name of qualityNames(); empty: substeps and iterations as they are here
   std::vector<ClothScene> cloths;
   std::vector<Collider> colliders;
   std::optional<WaterScene> water;

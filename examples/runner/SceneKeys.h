@@ -17,7 +17,7 @@ namespace keys {
 inline const KeyTable scene{
     "scene",
     {"$schema", "name", "description", "world", "precision", "gravity_m_s2", "step_s", "substeps", "iterations",
-     "duration_s", "implicit", "cloths", "colliders", "water", "camera"}};
+     "duration_s", "implicit", "quality", "cloths", "colliders", "water", "camera"}};
 
 inline const KeyTable cloth{"cloth",
                             {"name", "patch", "obj", "fabric", "pins", "initial_saturation", "friction", "damping",

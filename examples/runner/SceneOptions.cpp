@@ -1,10 +1,10 @@
 #include "SceneOptions.h"
 
 #include "Errors.h"
+#include "Quality.h"
 #include "SceneReader.h"
 #include "Sibling.h"
 
-#include <algorithm>
 #include <cstdio>
 
 namespace runner {
@@ -19,23 +19,6 @@ void requireDuration(double duration) {
 
 }  // namespace
 
-const std::vector<std::pair<std::string, Quality>>& qualityNames() {
-  static const std::vector<std::pair<std::string, Quality>> names{{"draft", Quality::draft},
-                                                                  {"realtime", Quality::realtime},
-                                                                  {"accurate", Quality::accurate},
-                                                                  {"reference", Quality::reference}};
-  return names;
-}
-
-void scaleQuality(Scene& scene, Quality quality) {
-  const double factor = quality == Quality::draft       ? 0.5
-                        : quality == Quality::accurate  ? 2
-                        : quality == Quality::reference ? 4
-                                                        : 1;
-  scene.substeps = std::max(1, static_cast<int>(scene.substeps * factor));
-  scene.iterations = std::max(1, static_cast<int>(scene.iterations * factor));
-}
-
 Scene readScene(const SceneOptions& options, char** arguments) {
   if (options.duration) requireDuration(*options.duration);
   Scene scene = readScene(options.scene);
@@ -45,7 +28,8 @@ Scene readScene(const SceneOptions& options, char** arguments) {
     continueInPrecision(valueOf(precisionNames(), options.precision), "wetcloth: --precision", arguments);
   }
   if (options.duration) scene.duration = *options.duration;
-  scaleQuality(scene, valueOf(qualityNames(), options.quality));
+  if (!options.quality.empty()) scene.quality = options.quality;
+  if (!scene.quality.empty()) apply(steppingOf(scene, valueOf(qualityNames(), scene.quality)), scene);
   return scene;
 }
 

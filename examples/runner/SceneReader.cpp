@@ -4,6 +4,7 @@
 #include "Errors.h"
 #include "JsonCursor.h"
 #include "ObjReader.h"
+#include "Quality.h"
 #include "ReadParameters.h"
 
 #include <algorithm>
@@ -262,6 +263,10 @@ void readWorld(const JsonCursor& cursor, Scene& scene) {
   readNumber(cursor, "step_s", Range{0, 1, false, "in (0, 1]"}, scene.step);
   if (const auto substeps = cursor.find("substeps")) scene.substeps = substeps->integer(1, 1000);
   if (const auto iterations = cursor.find("iterations")) scene.iterations = iterations->integer(1, 10000);
+  if (const auto quality = cursor.find("quality")) {
+    quality->choice(qualityNames());
+    scene.quality = quality->text();
+  }
   readNumber(cursor, "duration_s", Range{0, 3600, false, "in (0, 3600]"}, scene.duration);
   if (const auto implicit = cursor.find("implicit")) {
     scene.implicit = implicit->boolean();

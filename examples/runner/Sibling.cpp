@@ -36,6 +36,13 @@ void setGuard() {
 
 }  // namespace
 
+std::string programOf(Precision precision, char** arguments) {
+  std::error_code ignored;
+  const char* const name = precision == Precision::float64 ? "wetcloth-float64" : "wetcloth";
+  const std::filesystem::path program = ownDirectory(arguments[0]) / name;
+  return std::filesystem::exists(program, ignored) ? program.string() : "";
+}
+
 void continueInPrecision(Precision wanted, const std::string& wantedBy, char** arguments) {
   if (wanted == ownPrecision) return;
   const char* const name = wanted == Precision::float64 ? "wetcloth-float64" : "wetcloth";

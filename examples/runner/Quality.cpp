@@ -1,0 +1,27 @@
+#include "Quality.h"
+
+namespace runner {
+
+const std::vector<std::pair<std::string, Quality>>& qualityNames() {
+  static const std::vector<std::pair<std::string, Quality>> names{{"draft", Quality::draft},
+                                                                  {"realtime", Quality::realtime},
+                                                                  {"accurate", Quality::accurate},
+                                                                  {"reference", Quality::reference}};
+  return names;
+}
+
+double allowedError(Quality quality) {
+  switch (quality) {
+    case Quality::draft: return 0.10;
+    case Quality::realtime: return 0.03;
+    case Quality::accurate: return 0.01;
+    case Quality::reference: break;
+  }
+  return 0;
+}
+
+SteppingChoice steppingOf(const Scene& scene, Quality quality) {
+  return cheapestStepping(studiesOf(scene), allowedError(quality));
+}
+
+}  // namespace runner
