@@ -114,16 +114,6 @@ TEST(Run, ThePapersThreeWindsLiftTheFlagHigherAndStayStable) {
   }
 }
 
-TEST(Run, QualityScalesSubstepsAndIterations) {
-  const std::vector<std::pair<std::string, int>> expected{
-      {"draft", 2}, {"realtime", 4}, {"accurate", 8}, {"reference", 16}};
-  for (const auto& [quality, count] : expected) {
-    const Json result = runScene(smallScene(), {"--quality", quality});
-    EXPECT_EQ(result.at("substeps"), count) << quality;
-    EXPECT_EQ(result.at("iterations"), count) << quality;
-  }
-}
-
 TEST(Run, ASceneDecidesItsPrecision) {
   if (!std::ifstream(WETCLOTH_COMMAND "-float64")) GTEST_SKIP() << "Bullet was found in one precision only";
   for (const char* precision : {"float32", "float64"}) {
