@@ -87,15 +87,25 @@ class StateArchive {
   }
   template <class Array, class Transfer>
   void growing(Array& values, const Transfer& transfer) {
+    growing(values, transfer, [](const auto&) { return true; });
+  }
+  /// Without the elements that isWorthIt() refuses when they are saved.
+  template <class Array, class Transfer, class Predicate>
+  void growing(Array& values, const Transfer& transfer, const Predicate& isWorthIt) {
+    using Size = decltype(values.size());
     using Element = std::remove_reference_t<decltype(values[0])>;
-    const std::size_t size = count(static_cast<std::size_t>(values.size()));
+    std::size_t size = 0;
+    for (Size i = 0; isSaving() && i < values.size(); ++i) size += isWorthIt(values[i]) ? 1 : 0;
+    size = count(size);
     if (isChecking()) {
       Element element{};
       for (std::size_t i = 0; i < size; ++i) transfer(element);
       return;
     }
-    if (isRestoring()) values.resize(static_cast<decltype(values.size())>(size));
-    for (std::size_t i = 0; i < size; ++i) transfer(values[static_cast<decltype(values.size())>(i)]);
+    if (isRestoring()) values.resize(static_cast<Size>(size));
+    for (Size i = 0; i < values.size(); ++i) {
+      if (isRestoring() || isWorthIt(values[i])) transfer(values[i]);
+    }
   }
   template <class T, class Transfer>
   void optional(std::optional<T>& value, const Transfer& transfer) {
