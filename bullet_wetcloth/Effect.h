@@ -7,6 +7,7 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
 class WetCloth;
 
 /// The fixed order of a step, whatever order effects were added in. Between `material` and `forces` the step
@@ -55,6 +56,10 @@ class Effect {
     static_cast<void>(step);
     return false;
   }
+  /// Names what apply() carries from one step to the next, for WetClothWorld::save() and restore(): see StateArchive.
+  /// Parameters are the application's, and what attach() builds is there already. An effect without this goes on, after
+  /// a restore, as if it had just been added.
+  virtual void transferState(StateArchive& archive) { static_cast<void>(archive); }
 
  protected:
   Effect() = default;

@@ -1,6 +1,7 @@
 #include "bullet_wetcloth/NodeMasses.h"
 
 #include "bullet_wetcloth/ImpulseMatrix.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <BulletSoftBody/btDeformableBackwardEulerObjective.h>
 #include <BulletSoftBody/btDeformableBodySolver.h>
@@ -184,6 +185,12 @@ void NodeMasses::refreshDeformable() {
   }
   btSoftBodySolver* solver = m_body.getSoftBodySolver();
   if (solver) static_cast<btDeformableBodySolver*>(solver)->m_objective->m_massPreconditioner->reinitialize(true);
+}
+
+void NodeMasses::transferState(StateArchive& archive) {
+  archive.array(m_inverseMass);
+  archive.growingArray(m_linkStiffness);
+  archive.value(m_linkStiffnessRevision, m_linksAreStale, m_commits, m_linkRefreshes);
 }
 
 }  // namespace WETCLOTH_PRECISION

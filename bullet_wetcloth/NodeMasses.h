@@ -11,6 +11,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
+
 /// The one writer of node masses.
 ///
 /// btSoftBody::setMass() makes the next step reset every rest length to the deformed length, so it must never be
@@ -44,6 +46,8 @@ class NodeMasses {
   const std::vector<btScalar>& linkStiffness() const { return m_linkStiffness; }
   /// Grows with every setLinkStiffness().
   unsigned long long linkStiffnessRevision() const { return m_linkStiffnessRevision; }
+
+  void transferState(StateArchive& archive);
 
   /// How often masses and link constants were written: for tests that count work.
   long long commits() const { return m_commits; }

@@ -1,6 +1,7 @@
 #include "bullet_wetcloth/Settling.h"
 
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 
@@ -61,6 +62,12 @@ void Settling::rememberShape(const WetCloth& cloth, const Step& step) {
   const btScalar tolerance = kMoved * (body.m_bounds[1] - body.m_bounds[0]).length();
   m_tolerance2 = tolerance * tolerance;
   m_gravity = step.gravity;
+}
+
+void Settling::transferState(StateArchive& archive) {
+  archive.value(m_quietSteps, m_isSettled, m_capacity, m_movedBefore, m_gravity, m_tolerance2);
+  archive.growingArray(m_shape);
+  archive.value(m_nextNode);
 }
 
 }  // namespace WETCLOTH_PRECISION

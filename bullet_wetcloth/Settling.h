@@ -31,6 +31,8 @@ class Settling {
   /// After a step that was not left out, with what it moved [kg]. May allocate in the first call after restart().
   void note(const WetCloth& cloth, const Step& step, double moved);
 
+  void transferState(StateArchive& archive);
+
  private:
   bool shapeChanged(const WetCloth& cloth, const Step& step);
   void rememberShape(const WetCloth& cloth, const Step& step);

@@ -1,5 +1,7 @@
 #include "bullet_wetcloth/Water.h"
 
+#include "bullet_wetcloth/state/StateArchive.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -16,6 +18,8 @@ double sum(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+void CompensatedSum::transferState(StateArchive& archive) { archive.value(m_sum, m_compensation); }
 
 Ledger Water::ledger() const {
   Ledger ledger;
@@ -142,6 +146,19 @@ void Water::replaceNodes(std::vector<double> dryMass, std::vector<double> held) 
   m_held = std::move(held);
   m_arrivals.assign(m_held.size(), Arrival());
   markMoved();
+}
+
+void Water::transferState(StateArchive& archive) {
+  archive.array(m_held);
+  archive.array(m_dryMass);
+  archive.each(m_arrivals, [&](Arrival& arrival) {
+    archive.value(arrival.mass, arrival.momentum[0], arrival.momentum[1], arrival.momentum[2]);
+    archive.value(arrival.runOff, arrival.shifted);
+  });
+  archive.value(m_capacityRatio, m_totalDryMass, m_movedWithin);
+  for (double& part : m_newlyAbsorbed) archive.value(part);
+  for (auto* sum : {&m_initial, &m_absorbed, &m_dripped, &m_evaporated, &m_runOff}) sum->transferState(archive);
+  archive.value(m_revision, m_movedSinceCommit, m_leftSinceCommit);
 }
 
 }  // namespace WETCLOTH_PRECISION

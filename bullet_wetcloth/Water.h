@@ -9,6 +9,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
+
 /// Where the water of one cloth came from and went to [kg]. At every step, to rounding,
 /// initial + absorbed == held + dripped + evaporated.
 struct Ledger {
@@ -33,6 +35,7 @@ class CompensatedSum {
     m_sum = sum;
   }
   double value() const { return m_sum + m_compensation; }
+  void transferState(StateArchive& archive);
 
  private:
   double m_sum = 0;
@@ -138,6 +141,7 @@ class Water {
   }
   /// The body's nodes changed: new arrays whose total water must equal the old one's to rounding.
   void replaceNodes(std::vector<double> dryMass, std::vector<double> held);
+  void transferState(StateArchive& archive);
 
  private:
   // Consecutive nodes are summed in turn, so that no addition waits for the one before.

@@ -3,6 +3,7 @@
 #include "bullet_wetcloth/DryMass.h"
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetClothWorld.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -202,6 +203,33 @@ std::size_t WetCloth::checked(int node) const {
                             ")");
   }
   return static_cast<std::size_t>(node);
+}
+
+void WetCloth::transferState(StateArchive& archive) {
+  archive.expect(m_water.size(), "a cloth's number of nodes");
+  archive.expect(m_world.isInWorld(m_body), "whether a cloth's body is in the world");
+  archive.value(m_massAsleep, m_wasPresent);
+  m_water.transferState(archive);
+  m_masses.transferState(archive);
+  transferMesh(archive);
+  archive.expect(m_effects.size(), "a cloth's number of effects");
+  for (const auto& effect : m_effects) {
+    const std::string name = effect->name();
+    archive.expect(name, "an effect's name");
+    archive.section("the effect " + name, [&] { effect->transferState(archive); });
+  }
+}
+
+// It is built when first asked for, of the body as it is then.
+void WetCloth::transferMesh(StateArchive& archive) {
+  unsigned char has = m_restMesh ? 1 : 0;
+  archive.local(has);
+  if (has == 0) return;
+  if (!m_restMesh && archive.isChecking()) {
+    RestMesh(m_body).transferState(archive);
+  } else {
+    m_restMesh ? m_restMesh->transferState(archive) : m_restMesh.emplace(m_body).transferState(archive);
+  }
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -132,6 +132,8 @@ class WetCloth {
   template <class Action>
   void guarded(std::size_t& index, Action action);
   bool bodyChanged() const;
+  void transferState(StateArchive& archive);
+  void transferMesh(StateArchive& archive);
   void rememberBody();
   std::size_t checked(int node) const;
 

@@ -3,6 +3,9 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/SubstepHook.h"
 #include "bullet_wetcloth/shading/DebugDraw.h"
+#include "bullet_wetcloth/state/StateArchive.h"
+#include "bullet_wetcloth/state/StateEnvelope.h"
+#include "bullet_wetcloth/state/WorldState.h"
 
 #include <BulletSoftBody/btDeformableBodySolver.h>
 #include <BulletSoftBody/btDeformableGravityForce.h>
@@ -183,6 +186,29 @@ void WetClothWorld::setLog(std::function<void(const std::string&)> log) { m_log 
 
 void WetClothWorld::log(const std::string& message) const {
   if (m_log) m_log(message);
+}
+
+void WetClothWorld::save(std::ostream& stream) const {
+  StateArchive archive(m_world);
+  const_cast<WetClothWorld*>(this)->transferState(archive);  // which changes nothing while saving
+  StateEnvelope::write(stream, static_cast<std::uint32_t>(m_world.getWorldType()), archive.bytes());
+}
+
+void WetClothWorld::restore(std::istream& stream) {
+  StateArchive archive(m_world, StateEnvelope::read(stream, static_cast<std::uint32_t>(m_world.getWorldType())));
+  transferState(archive);
+  archive.rewind();
+  transferState(archive);
+}
+
+void WetClothWorld::transferState(StateArchive& archive) {
+  transferWorld(archive, static_cast<btDiscreteDynamicsWorld&>(m_world), softBodies());
+  archive.value(m_time, m_stepStart);
+  archive.expect(m_cloths.size(), "the number of cloths");
+  for (const auto& cloth : m_cloths) {
+    archive.expect(softBodies().findLinearSearch(&cloth->m_body), "a cloth's place among the world's soft bodies");
+    cloth->transferState(archive);
+  }
 }
 
 }  // namespace WETCLOTH_PRECISION

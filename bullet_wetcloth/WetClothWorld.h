@@ -6,6 +6,7 @@
 #include <BulletDynamics/Dynamics/btDynamicsWorld.h>
 
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
@@ -77,6 +78,21 @@ class WetClothWorld {
   /// Throws std::invalid_argument when metresPerPascal is not finite.
   void debugDraw(btIDebugDraw& drawer, double metresPerPascal = 0.01) const;
 
+  /// Saves what this world, its bodies and its cloths carry from one step to the next: a run that is saved and restored
+  /// between any two steps goes on as if nothing had been, bit for bit (docs/trust.md tells where it does not).
+  ///
+  /// Saved are the soft and rigid bodies' motion, sleep and forces, soft contacts, Bullet's trees of boxes and pairs,
+  /// the world's clock, the water, and what each effect remembers (Effect::transferState()). Left to the application
+  /// are what it built and what it set: masses, shapes, materials, m_cfg, anchors, joints, multibodies, motion states,
+  /// gravity, the effects' parameters and callbacks.
+  /// Throws StateError when the stream fails, and for what is not saved (bodies with tetrahedra or joints of clusters).
+  void save(std::ostream& stream) const;
+  /// Restores a saved state into a world that the same program has built in the same way: the same bodies, cloths and
+  /// effects, added in the same order. So an application builds its scene anew and then restores. Call it between
+  /// steps. Throws StateError that names what is wrong with the stream (cut off, changed, foreign, of another version,
+  /// precision or world), and then nothing has changed.
+  void restore(std::istream& stream);
+
   /// Simulated time since construction [s].
   double time() const { return m_time; }
 
@@ -88,6 +104,7 @@ class WetClothWorld {
  private:
   friend class WetCloth;
   void shareTick();
+  void transferState(StateArchive& archive);
   bool isInWorld(const btSoftBody& body) const;
   bool noticePresence(WetCloth& cloth) const;
   Step stepOf(const btSoftBody& body, btScalar dt, double time) const;

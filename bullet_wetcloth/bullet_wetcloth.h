@@ -26,3 +26,5 @@
 #include "bullet_wetcloth/shading/Colour.h"
 #include "bullet_wetcloth/shading/DebugDraw.h"
 #include "bullet_wetcloth/shading/VertexBuffer.h"
+#include "bullet_wetcloth/state/StateArchive.h"
+#include "bullet_wetcloth/state/StateError.h"

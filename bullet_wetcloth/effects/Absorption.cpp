@@ -2,6 +2,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,6 +83,11 @@ bool Absorption::takeUp(WetCloth& cloth, std::size_t node, double share) {
   const btVector3& arriving =
       m_parameters.conservesMomentum ? m_parameters.waterVelocity : cloth.body().m_nodes[static_cast<int>(node)].m_v;
   return m_uptake.soak(water, node, room, wanted, arriving);
+}
+
+void Absorption::transferState(StateArchive& archive) {
+  m_uptake.transferState(archive);
+  archive.value(m_settledRevision, m_settled, m_hasNormals, m_nodesVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -53,6 +53,7 @@ class Absorption : public Effect {
   Stage stage() const override { return Stage::sources; }
   void attach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
+  void transferState(StateArchive& archive) override;
 
   /// Nodes visited so far: for tests that count work. A settled cloth adds none.
   long long nodesVisited() const { return m_nodesVisited; }

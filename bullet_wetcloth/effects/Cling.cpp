@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/WetClothWorld.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -216,6 +217,24 @@ bool Cling::wakes(const WetCloth& cloth, const Step&) const {
     if ((place - cloth.body().m_nodes[static_cast<int>(i)].m_x).length2() > kStirred * kStirred) return true;
   }
   return false;
+}
+
+void Cling::transferState(StateArchive& archive) {
+  archive.each(m_bonds, [&](Bond& bond) { transferBond(archive, bond); });
+  archive.value(m_nextTime, m_nodesVisited);
+  if (!archive.isRestoring()) return;
+  const auto holds = [](const Bond& bond) { return bond.object != nullptr; };
+  m_bondCount = static_cast<int>(std::count_if(m_bonds.begin(), m_bonds.end(), holds));
+}
+
+// A bond with what has left the world since is saved as one with something that was never there: the next step ends it.
+void Cling::transferBond(StateArchive& archive, Bond& bond) {
+  static btCollisionObject nowhere;
+  bool holds = bond.object != nullptr;
+  archive.value(holds);
+  archive.object(bond.object);
+  archive.value(bond.proxy, bond.anchor, bond.normal, bond.isReported);
+  if (archive.isRestoring() && holds && !bond.object) bond.object = &nowhere;
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -76,6 +76,7 @@ class Cling : public Effect {
   void apply(WetCloth& cloth, const Step& step) override;
   /// When what it clings to has moved away, or is gone.
   bool wakes(const WetCloth& cloth, const Step& step) const override;
+  void transferState(StateArchive& archive) override;
 
   /// Bonds looked at so far: for tests that count work.
   long long nodesVisited() const { return m_nodesVisited; }
@@ -94,6 +95,7 @@ class Cling : public Effect {
   void take(WetCloth& cloth, const RigidContact& contact);
   void hold(WetCloth& cloth, const Step& step, std::size_t node);
   void release(Bond& bond);
+  static void transferBond(StateArchive& archive, Bond& bond);
 
   Parameters m_parameters;
   WetnessCurve m_curve;

@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/effects/PassageFinder.h"
 #include "bullet_wetcloth/effects/SweptFaces.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <LinearMath/btIDebugDraw.h>
 
@@ -225,6 +226,39 @@ void CollisionAudit::draw(btIDebugDraw& drawer) const {
       drawer.drawLine(passage.position - along, passage.position + along, colour);
     }
   }
+}
+
+// passages() of the last look are left out: they name what was seen, and nothing builds on them.
+void CollisionAudit::transferState(StateArchive& archive) {
+  archive.value(m_totals.vertexFace, m_totals.edgeEdge, m_totals.candidatePairs, m_totals.substeps);
+  archive.value(m_totals.incompleteSubsteps, m_totals.seconds);
+  archive.value(m_isFollowing, m_isPending, m_time, m_dt, m_lookEnd);
+  m_own->transferState(archive, m_cloth->body());
+  transferOthers(archive);
+  m_finder->transferState(archive, m_cloth->world().softBodies());
+  if (archive.isRestoring()) m_passages.clear();
+}
+
+void CollisionAudit::transferOthers(StateArchive& archive) {
+  const btAlignedObjectArray<btSoftBody*>& bodies = m_cloth->world().softBodies();
+  const auto numberOf = [&](const Other& other) {
+    return bodies.findLinearSearch(const_cast<btSoftBody*>(other.faces->body()));
+  };
+  // A body that has left the world is forgotten in the next step.
+  const auto isThere = [&](const Other& other) { return numberOf(other) < bodies.size(); };
+  std::vector<Other> others;
+  for (Other& other : m_others) {
+    if (archive.isSaving() && isThere(other))
+      others.push_back({std::make_unique<SweptFaces>(*other.faces), true, other.isNew});
+  }
+  others.resize(archive.count(others.size()));
+  for (Other& other : others) {
+    if (!other.faces) other.faces = std::make_unique<SweptFaces>();
+    const int number = archive.place(archive.isSaving() ? numberOf(other) : 0, bodies.size(), "soft body of an audit");
+    archive.value(other.isNew);
+    other.faces->transferState(archive, *bodies[number]);
+  }
+  if (archive.isRestoring()) m_others = std::move(others);
 }
 
 }  // namespace WETCLOTH_PRECISION

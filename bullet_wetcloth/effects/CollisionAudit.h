@@ -100,6 +100,7 @@ class CollisionAudit : public Effect {
   void attach(WetCloth& cloth) override;
   void detach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
+  void transferState(StateArchive& archive) override;
 
  private:
   struct Other;
@@ -111,6 +112,7 @@ class CollisionAudit : public Effect {
   bool followOthers();
   bool follow(const btSoftBody& body);
   bool isOurs(const btSoftBody& other) const;
+  void transferOthers(StateArchive& archive);
 
   Parameters m_parameters;
   AuditTotals m_totals;

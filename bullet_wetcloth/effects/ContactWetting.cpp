@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/WetClothWorld.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -230,6 +231,11 @@ void ContactWetting::give(WetCloth& from, int fromNode, WetCloth& to, int toNode
   const btVector3& velocity = from.body().m_nodes[fromNode].m_v;
   to.water().absorb(receiver, moved, velocity.x(), velocity.y(), velocity.z());
   ++m_nodesVisited;
+}
+
+void ContactWetting::transferState(StateArchive& archive) {
+  for (WetBody& wet : m_parameters.wetBodies) archive.value(wet.water);
+  archive.value(m_nodesVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

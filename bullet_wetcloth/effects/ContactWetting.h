@@ -74,6 +74,7 @@ class ContactWetting : public Effect {
   /// Throws std::invalid_argument when Bullet does not list the contacts that are asked for, with the reason.
   void attach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
+  void transferState(StateArchive& archive) override;
 
   /// Times that water went to or from a node: for tests that count work.
   long long nodesVisited() const { return m_nodesVisited; }

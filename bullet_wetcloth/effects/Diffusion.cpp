@@ -6,6 +6,7 @@
 #include "bullet_wetcloth/effects/DiffusionSolver.h"
 #include "bullet_wetcloth/effects/EdgeFlow.h"
 #include "bullet_wetcloth/mesh/IntrinsicDelaunay.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -139,6 +140,13 @@ void Diffusion::flowInSubsteps(double dt) {
     for (std::size_t e = 0; e < m_fluxes.size(); ++e) m_fluxes[e] += m_substepFluxes[e];
     ++m_substeps;
   }
+}
+
+void Diffusion::transferState(StateArchive& archive) {
+  m_flow->transferState(archive);
+  m_solver->transferState(archive, m_flow->edges(), m_flow->capacities());
+  m_settling.transferState(archive);
+  archive.value(m_longestSubstep, m_nodesVisited, m_substeps);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -63,6 +63,7 @@ class Diffusion : public Effect {
   /// Throws std::invalid_argument when the body has no faces.
   void attach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
+  void transferState(StateArchive& archive) override;
 
   /// For tests that count work: nodes visited, linear systems solved, matrices factored, explicit substeps and
   /// iterations of conjugate gradients so far. A settled cloth adds none.

@@ -1,5 +1,7 @@
 #include "bullet_wetcloth/effects/DiffusionSolver.h"
 
+#include "bullet_wetcloth/state/StateArchive.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -143,6 +145,14 @@ void explicitFluxes(const std::vector<WeightedEdge>& edges, const std::vector<do
   for (std::size_t e = 0; e < edges.size(); ++e) {
     fluxes[e] = dt * edges[e].weight * (potential[index(edges[e].a)] - potential[index(edges[e].b)]);
   }
+}
+
+// While a factor is in use the capacities are those that it was made of: see Diffusion::apply().
+void DiffusionSolver::transferState(StateArchive& archive, const std::vector<WeightedEdge>& edges,
+                                    const std::vector<double>& capacities) {
+  archive.value(m_factoredDt);
+  if (archive.isRestoring() && m_factoredDt > 0) factor(edges, capacities, m_factoredDt);
+  archive.value(m_factorizations, m_solves, m_iterations);
 }
 
 }  // namespace WETCLOTH_PRECISION

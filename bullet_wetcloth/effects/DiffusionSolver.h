@@ -11,6 +11,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
+
 /// Fluxes of one step of C ds/dt = -L Phi(s), C the nodes' capacities, L the Laplacian with conductances G for its
 /// weights.
 ///
@@ -37,6 +39,10 @@ class DiffusionSolver {
   /// times that of an even distribution.
   void solveIteratively(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities,
                         const std::vector<double>& potential, double dt, double tolerance, std::vector<double>& fluxes);
+
+  /// The factor is made anew of the same numbers.
+  void transferState(StateArchive& archive, const std::vector<WeightedEdge>& edges,
+                     const std::vector<double>& capacities);
 
   long long factorizations() const { return m_factorizations; }
   long long solves() const { return m_solves; }

@@ -2,6 +2,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <cmath>
 #include <utility>
@@ -120,6 +121,14 @@ void Dripping::report(WetCloth& cloth, const Step& step, std::size_t node) {
   const int number = static_cast<int>(node);
   const btSoftBody::Node& from = cloth.body().m_nodes[number];
   m_parameters.onDrip({step.time, from.m_x, from.m_v, mass, number, &cloth});
+}
+
+void Dripping::transferState(StateArchive& archive) {
+  archive.array(m_carry);
+  archive.array(m_pending);
+  m_dripped.transferState(archive);
+  m_settling.transferState(archive);
+  archive.value(m_drops, m_revisionWithoutExcess, m_hasNoExcess, m_nodesVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -70,6 +70,7 @@ class Dripping : public Effect {
   /// Throws std::invalid_argument when the body has no faces.
   void attach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
+  void transferState(StateArchive& archive) override;
 
   /// Drops reported so far.
   long long drops() const { return m_drops; }

@@ -1,6 +1,7 @@
 #include "bullet_wetcloth/effects/DropCatcher.h"
 
 #include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +96,11 @@ void DropCatcher::deliver(Water& water, double most) {
     const double rest = m_uptake.catchDrops(water, i, share * drops.mass, vx, vy, vz);
     water.runOff(i, rest, vx, vy, vz);
   }
+}
+
+void DropCatcher::transferState(StateArchive& archive) {
+  m_uptake.transferState(archive);
+  archive.value(m_caught);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -46,6 +46,8 @@ class DropCatcher {
   /// Water that struck the cloth in the last step [kg].
   double caught() const { return m_caught; }
 
+  void transferState(StateArchive& archive);
+
  private:
   struct Drops {
     double mass = 0;                 // [kg]

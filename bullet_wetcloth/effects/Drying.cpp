@@ -3,6 +3,7 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -155,6 +156,11 @@ bool Drying::dry(WetCloth& cloth, const Step& step, std::size_t node) {
   const double left = water.evaporate(node, portion);
   m_carry[node] = isLast ? 0 : portion - left;
   return isLast;
+}
+
+void Drying::transferState(StateArchive& archive) {
+  archive.array(m_carry);
+  archive.value(m_dryRevision, m_isDry, m_hasNormals, m_nodesVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

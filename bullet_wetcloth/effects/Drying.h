@@ -64,6 +64,7 @@ class Drying : public Effect {
   /// Throws std::invalid_argument when the body has no faces, or an exposure has not one value per node.
   void attach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
+  void transferState(StateArchive& archive) override;
 
   /// Nodes visited so far: for tests that count work. A dry cloth adds none.
   long long nodesVisited() const { return m_nodesVisited; }

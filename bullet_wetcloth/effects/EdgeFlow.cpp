@@ -1,6 +1,7 @@
 #include "bullet_wetcloth/effects/EdgeFlow.h"
 
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <utility>
@@ -41,14 +42,25 @@ bool EdgeFlow::load(const Water& water) {
     changed = changed || m_capacity[i] != water.capacity(i);
     m_capacity[i] = water.capacity(i);
   }
-  if (!changed) return false;
+  if (changed) weighEdges();
+  return changed;
+}
+
+void EdgeFlow::weighEdges() {
   for (std::size_t e = 0; e < m_edges.size(); ++e) {
     const std::size_t a = index(m_edges[e].a);
     const std::size_t b = index(m_edges[e].b);
     const double areaPerCapacity = (m_areas[a] / m_capacity[a] + m_areas[b] / m_capacity[b]) / 2;
     m_edges[e].weight = areaPerCapacity > 0 ? m_weights[e] / areaPerCapacity : 0;
   }
-  return true;
+}
+
+// What load() reads again in each step is left out, but not whether the capacities will be found to have changed.
+void EdgeFlow::transferState(StateArchive& archive) {
+  archive.array(m_capacity);
+  archive.array(m_before);
+  archive.array(m_held);
+  if (archive.isRestoring()) weighEdges();
 }
 
 double EdgeFlow::moved() const {

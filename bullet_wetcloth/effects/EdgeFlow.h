@@ -11,6 +11,7 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
 class Water;
 class WetCloth;
 
@@ -46,7 +47,10 @@ class EdgeFlow {
   /// moved.
   void commit(WetCloth& cloth, const std::vector<double>& fluxes);
 
+  void transferState(StateArchive& archive);
+
  private:
+  void weighEdges();
   void carryMomentum(WetCloth& cloth, const std::vector<double>& fluxes);
 
   std::vector<WeightedEdge> m_edges;

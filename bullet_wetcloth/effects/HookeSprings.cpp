@@ -3,6 +3,7 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/effects/SpringSolver.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -200,6 +201,12 @@ void HookeSprings::pullAnchors(btSoftBody& body, const Step& step) {
     anchor.rigid->activate();
     anchor.rigid->applyImpulse(force * static_cast<btScalar>(step.dt), anchor.arm);
   });
+}
+
+void HookeSprings::transferState(StateArchive& archive) {
+  for (Spring& spring : m_springs) archive.value(spring.stiffness);
+  archive.value(m_stiffnessRevision);
+  m_solver->transferState(archive, m_springs);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -55,6 +55,7 @@ class HookeSprings : public Effect {
   void attach(WetCloth& cloth) override;
   void detach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
+  void transferState(StateArchive& archive) override;
 
   /// How often the matrix was factored: for tests that count work.
   long long factorizations() const;

@@ -2,6 +2,7 @@
 
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/effects/Absorption.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -100,6 +101,13 @@ double Immersion::reach(const btSoftBody& body) const {
   const btVector3& normal = m_surface->normal;
   const auto lowest = [&](int axis) { return body.m_bounds[normal[axis] > 0 ? 0 : 1][axis]; };
   return m_surface->depth(btVector3(lowest(0), lowest(1), lowest(2)));
+}
+
+void Immersion::transferState(StateArchive& archive) {
+  m_uptake.transferState(archive);
+  m_settling.transferState(archive);
+  archive.optional(m_surface, [&](WaterSurface& surface) { surface.transferState(archive); });
+  archive.value(m_reachLimit, m_isFull, m_fullRevision, m_nodesVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

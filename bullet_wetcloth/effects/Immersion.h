@@ -41,6 +41,7 @@ class Immersion : public Effect {
   /// Throws std::invalid_argument when the effect is added and there is no water, neither its own nor Bullet's.
   void attach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
+  void transferState(StateArchive& archive) override;
 
   /// Nodes visited so far: for tests that count work. An idle effect adds none.
   long long nodesVisited() const { return m_nodesVisited; }

@@ -1,6 +1,7 @@
 #include "bullet_wetcloth/effects/LinkSaturation.h"
 
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +50,11 @@ double LinkSaturation::largestChange(const WetCloth& cloth) const {
 void LinkSaturation::take(const WetCloth& cloth) {
   for (std::size_t i = 0; i < m_saturation.size(); ++i) m_saturation[i] = saturationOf(cloth.water(), i);
   m_lags = false;
+}
+
+void LinkSaturation::transferState(StateArchive& archive) {
+  archive.array(m_saturation);
+  archive.value(m_revision, m_lags);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -8,6 +8,7 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
 class WetCloth;
 
 /// The saturation of each link of a cloth: the mean of its two nodes', each in [0, 1]; a node that was filled above its
@@ -24,6 +25,8 @@ class LinkSaturation {
 
   /// Whether a value changed. Visits no link while none does, and no node while no water moves.
   bool update(const WetCloth& cloth);
+
+  void transferState(StateArchive& archive);
 
   std::size_t size() const { return m_links.size(); }
   double operator[](std::size_t link) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Water.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <LinearMath/btVector3.h>
 
@@ -19,6 +20,7 @@ class NodeUptake {
   /// Nothing carried, for this many nodes.
   void reset(std::size_t nodes) { m_carry.assign(nodes, 0); }
   std::size_t size() const { return m_carry.size(); }
+  void transferState(StateArchive& archive) { archive.array(m_carry); }
 
   /// Water that the node can still take [kg]; not positive when it is full.
   double room(const Water& water, std::size_t node) const {

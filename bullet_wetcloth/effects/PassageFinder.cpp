@@ -1,5 +1,7 @@
 #include "bullet_wetcloth/effects/PassageFinder.h"
 
+#include "bullet_wetcloth/state/StateArchive.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -243,6 +245,22 @@ void PassageFinder::forget() {
   }
   m_undecided.clear();
   m_undecidedNext.clear();
+}
+
+void PassageFinder::transferState(StateArchive& archive, const btAlignedObjectArray<btSoftBody*>& bodies) {
+  const auto transferBody = [&](const btSoftBody*& body) {
+    const int number = archive.isSaving() ? bodies.findLinearSearch(const_cast<btSoftBody*>(body)) : 0;
+    const int place = archive.index(number < bodies.size() ? number : -1, bodies.size(), "soft body of an audit");
+    if (archive.isRestoring()) body = place < 0 ? nullptr : bodies[place];
+  };
+  archive.growing(m_undecided, [&](Undecided& undecided) {
+    transferBody(undecided.first);
+    transferBody(undecided.second);
+    archive.value(undecided.pair, undecided.side);
+    for (int& node : undecided.nodes) archive.value(node);
+  });
+  if (archive.isRestoring()) std::sort(m_undecided.begin(), m_undecided.end());
+  archive.value(m_candidates);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -12,6 +12,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
+
 /// Finds what went through what between the two moments of one or two SweptFaces.
 ///
 /// A pair passes when it meets and is afterwards on the other side: the sign of the volume that its four points span
@@ -41,6 +43,9 @@ class PassageFinder {
   bool finish();
   /// Forgets which pairs were meeting.
   void forget();
+
+  /// What was meeting. @param bodies  of the world
+  void transferState(StateArchive& archive, const btAlignedObjectArray<btSoftBody*>& bodies);
 
   /// Pairs of which the swept boxes overlapped, since construction.
   long long candidates() const { return m_candidates; }

@@ -2,6 +2,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <cstddef>
 #include <limits>
@@ -71,6 +72,11 @@ void Rain::catchDrops(const btVector3& direction, double dt) {
     if (m_parameters.selfShelter && m_shelter.isSheltered(f)) continue;
     m_catcher.strike(f, direction, m_parameters.flux * dt, velocity);
   }
+}
+
+void Rain::transferState(StateArchive& archive) {
+  m_catcher.transferState(archive);
+  archive.value(m_nodesVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

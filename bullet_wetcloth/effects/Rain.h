@@ -42,6 +42,7 @@ class Rain : public Effect {
   void apply(WetCloth& cloth, const Step& step) override;
   /// While drops strike: a sleeping body would be carried off by their momentum.
   bool wakes(const WetCloth& cloth, const Step& step) const override;
+  void transferState(StateArchive& archive) override;
 
   /// Water that struck the cloth in the last step [kg].
   double caught() const { return m_catcher.caught(); }

@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/effects/EdgeFlow.h"
 #include "bullet_wetcloth/mesh/IntrinsicDelaunay.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -113,6 +114,12 @@ void Seepage::flow(double speed, double dt) {
     for (std::size_t e = 0; e < edges.size(); ++e) m_fluxes[e] += m_substepFluxes[e];
     ++m_substeps;
   }
+}
+
+void Seepage::transferState(StateArchive& archive) {
+  m_flow->transferState(archive);
+  m_settling.transferState(archive);
+  archive.value(m_nodesVisited, m_substeps);
 }
 
 }  // namespace WETCLOTH_PRECISION

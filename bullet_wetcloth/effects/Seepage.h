@@ -50,6 +50,7 @@ class Seepage : public Effect {
   /// Throws std::invalid_argument when the body has no faces.
   void attach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
+  void transferState(StateArchive& archive) override;
 
   /// Nodes visited so far: for tests that count work. A settled cloth adds none.
   long long nodesVisited() const { return m_nodesVisited; }

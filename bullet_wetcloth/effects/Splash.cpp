@@ -2,6 +2,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -117,6 +118,12 @@ void Splash::catchDrops(const Cone& cone, double dt) {
 
 double Splash::flow() const {
   return std::visit([&](const auto& region) { return flowOf(region, m_parameters.flux); }, m_parameters.region);
+}
+
+void Splash::transferState(StateArchive& archive) {
+  m_catcher.transferState(archive);
+  m_settling.transferState(archive);
+  archive.value(m_nodesVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

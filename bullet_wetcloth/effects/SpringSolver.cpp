@@ -1,5 +1,7 @@
 #include "bullet_wetcloth/effects/SpringSolver.h"
 
+#include "bullet_wetcloth/state/StateArchive.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -145,6 +147,28 @@ void SpringSolver::applyInverse() {
     if (m_row[i] < 0) continue;
     for (std::size_t c = 0; c < 3; ++c) m_positions[i][c] += m_work[static_cast<std::size_t>(m_row[i])][c];
   }
+}
+
+// The factor may be older than masses and stiffness are, so what it was made of is saved.
+void SpringSolver::transferState(StateArchive& archive, const std::vector<Spring>& springs) {
+  std::vector<Spring> factored = springs;
+  std::vector<SpringNode> nodes(m_row.size());
+  double dt = m_factoredDt;
+  archive.local(dt);
+  archive.array(m_factoredMass);
+  archive.growingArray(m_factoredStiffness);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    nodes[i].isFixed = m_row[i] < 0;
+    archive.value(nodes[i].isFixed);
+    nodes[i].mass = m_factoredMass[i];
+  }
+  const bool hasFactor = dt > 0 && m_factoredStiffness.size() == factored.size();
+  if (archive.isRestoring() && hasFactor) {
+    for (std::size_t k = 0; k < factored.size(); ++k) factored[k].stiffness = m_factoredStiffness[k];
+    factor(factored, nodes, dt);
+  }
+  if (archive.isRestoring()) m_factoredDt = hasFactor ? dt : 0;
+  archive.value(m_factorizations);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -10,6 +10,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
+
 struct Spring {
   int a;
   int b;
@@ -47,6 +49,9 @@ class SpringSolver {
 
   /// Force of all springs on one node at the end of the last step [N].
   std::array<double, 3> springForce(const std::vector<Spring>& springs, std::size_t node) const;
+
+  /// The factor is made anew of the same numbers. `springs` have their saved stiffness.
+  void transferState(StateArchive& archive, const std::vector<Spring>& springs);
 
   long long factorizations() const { return m_factorizations; }
 

@@ -2,6 +2,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
@@ -115,6 +116,12 @@ void Swelling::writeLengths(btSoftBody& body) {
   }
   m_linksVisited += static_cast<long long>(m_lengths.size());
   m_isStale = false;
+}
+
+void Swelling::transferState(StateArchive& archive) {
+  m_saturation.transferState(archive);
+  archive.each(m_lengths, [&](Length& length) { archive.value(length.natural, length.factor, length.written); });
+  archive.value(m_restLengthScale, m_isStale, m_lengthsWillBeReset, m_linksVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -47,6 +47,7 @@ class Swelling : public Effect {
   /// Gives the links their natural lengths back.
   void detach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
+  void transferState(StateArchive& archive) override;
 
   /// Links visited so far: for tests that count work. A settled cloth adds none.
   long long linksVisited() const { return m_linksVisited; }

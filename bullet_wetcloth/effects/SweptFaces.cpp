@@ -1,5 +1,7 @@
 #include "bullet_wetcloth/effects/SweptFaces.h"
 
+#include "bullet_wetcloth/state/StateArchive.h"
+
 #include <cmath>
 #include <set>
 #include <utility>
@@ -78,36 +80,8 @@ void leaveOutWithTheirFaces(SweptFaces::Parts<nodeCount>& parts, const SweptBoxe
   }
 }
 
-}  // namespace
-
-void SweptFaces::build(const btSoftBody& body) {
-  m_body = &body;
-  m_faceCount = body.m_faces.size();
-  m_positions.resize(static_cast<std::size_t>(body.m_nodes.size()));
-  m_nodeBoxes.resize(m_positions.size());
-  m_faces = {};
-  m_tree.clear();
-  m_patches.clear();
-  std::vector<btVector3> centres;
-  std::vector<int> order;
-  for (int f = 0; f < body.m_faces.size(); ++f) {
-    centres.push_back(centreOf(body.m_faces[f]));
-    order.push_back(f);
-  }
-  if (!order.empty()) buildTree(order.data(), order.data() + order.size(), body, centres);
-  assignOwners();
-  restart(body);
-}
-
-// Splits at the median along the longest side, so the tree is as shallow as can be.
-void SweptFaces::buildTree(int* first, int* last, const btSoftBody& body, const std::vector<btVector3>& centres) {
-  const std::size_t index = m_tree.size();
-  m_tree.emplace_back();
-  m_tree[index].firstPatch = static_cast<int>(m_patches.size());
-  if (last - first <= static_cast<std::ptrdiff_t>(kPatchFaces)) {
-    addPatch(first, last, body);
-    return;
-  }
+// Along the longest side, so the tree is as shallow as can be.
+void splitAtMedian(int* first, int* middle, int* last, const std::vector<btVector3>& centres) {
   const auto centre = [&](int face) -> const btVector3& { return centres[static_cast<std::size_t>(face)]; };
   btVector3 low = centre(*first);
   btVector3 high = low;
@@ -116,8 +90,46 @@ void SweptFaces::buildTree(int* first, int* last, const btSoftBody& body, const 
     high.setMax(centre(*face));
   }
   const int axis = (high - low).maxAxis();
-  int* const middle = first + (last - first) / 2;
   std::nth_element(first, middle, last, [&](int a, int b) { return centre(a)[axis] < centre(b)[axis]; });
+}
+
+}  // namespace
+
+void SweptFaces::build(const btSoftBody& body) {
+  std::vector<btVector3> centres;
+  std::vector<int> order;
+  for (int f = 0; f < body.m_faces.size(); ++f) {
+    centres.push_back(centreOf(body.m_faces[f]));
+    order.push_back(f);
+  }
+  build(body, std::move(order), &centres);
+}
+
+// Without centres the order is that of a tree already.
+void SweptFaces::build(const btSoftBody& body, std::vector<int> order, const std::vector<btVector3>* centres) {
+  m_body = &body;
+  m_faceCount = body.m_faces.size();
+  m_positions.resize(static_cast<std::size_t>(body.m_nodes.size()));
+  m_nodeBoxes.resize(m_positions.size());
+  m_faces = {};
+  m_tree.clear();
+  m_patches.clear();
+  m_order = std::move(order);
+  if (!m_order.empty()) buildTree(m_order.data(), m_order.data() + m_order.size(), body, centres);
+  assignOwners();
+  restart(body);
+}
+
+void SweptFaces::buildTree(int* first, int* last, const btSoftBody& body, const std::vector<btVector3>* centres) {
+  const std::size_t index = m_tree.size();
+  m_tree.emplace_back();
+  m_tree[index].firstPatch = static_cast<int>(m_patches.size());
+  if (last - first <= static_cast<std::ptrdiff_t>(kPatchFaces)) {
+    addPatch(first, last, body);
+    return;
+  }
+  int* const middle = first + (last - first) / 2;
+  if (centres) splitAtMedian(first, middle, last, *centres);
   buildTree(first, middle, body, centres);
   m_tree[index].right = static_cast<int>(m_tree.size());
   buildTree(middle, last, body, centres);
@@ -208,6 +220,25 @@ SweptBox SweptFaces::boxOfPatch(const Patch& patch) const {
     for (const int node : m_faces.nodes[f].node) box.include(m_nodeBoxes[static_cast<std::size_t>(node)]);
   }
   return box;
+}
+
+void SweptFaces::transferState(StateArchive& archive, const btSoftBody& body) {
+  std::vector<int> order = m_order;
+  std::vector<Position> positions = m_positions;
+  order.resize(static_cast<std::size_t>(body.m_faces.size()));
+  positions.resize(static_cast<std::size_t>(body.m_nodes.size()));
+  std::vector<bool> isKnown(order.size(), false);
+  for (int& face : order) {
+    face = archive.place(face, static_cast<int>(order.size()), "face of an audit");
+    if (isKnown[static_cast<std::size_t>(face)]) archive.fail("a face is in an audit twice");
+    isKnown[static_cast<std::size_t>(face)] = true;
+  }
+  for (Position& position : positions) {
+    for (auto& axis : position.at) archive.value(axis[0], axis[1]);
+  }
+  if (!archive.isRestoring()) return;
+  build(body, std::move(order), nullptr);
+  m_positions = std::move(positions);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -12,6 +12,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
+
 /// The faces of a soft body between two moments, in a tree of the boxes that they sweep. The leaves are patches of a
 /// few faces: neighbours overlap in any case, so a tree that tells them apart takes longer than it saves.
 ///
@@ -50,6 +52,8 @@ class SweptFaces {
 
   /// Takes the body's faces, and its present positions for both moments. Allocates.
   void build(const btSoftBody& body);
+  /// The positions of both moments, and the tree, whose order of faces tells when which pair is looked at.
+  void transferState(StateArchive& archive, const btSoftBody& body);
   /// False when the body's nodes or faces have changed in number.
   bool fits(const btSoftBody& body) const;
   /// The body's present positions become those of both moments.
@@ -89,7 +93,8 @@ class SweptFaces {
     bool isLeaf() const { return patches == 1; }
   };
 
-  void buildTree(int* first, int* last, const btSoftBody& body, const std::vector<btVector3>& centres);
+  void build(const btSoftBody& body, std::vector<int> order, const std::vector<btVector3>* centres);
+  void buildTree(int* first, int* last, const btSoftBody& body, const std::vector<btVector3>* centres);
   void addPatch(const int* first, const int* last, const btSoftBody& body);
   void assignOwners();
   SweptBox boxOfPatch(const Patch& patch) const;
@@ -116,6 +121,7 @@ class SweptFaces {
 
   const btSoftBody* m_body = nullptr;
   int m_faceCount = 0;
+  std::vector<int> m_order;  // of the faces, in the tree
   std::vector<Position> m_positions;
   std::vector<SweptBox> m_nodeBoxes;
   Parts<1> m_vertices;

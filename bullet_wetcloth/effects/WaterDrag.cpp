@@ -3,6 +3,7 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/effects/FluidResistance.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <array>
@@ -175,6 +176,11 @@ void WaterDrag::scatter(WetCloth& cloth, const Step& step) {
   }
   m_totalForce.setValue(static_cast<btScalar>(total[0]), static_cast<btScalar>(total[1]),
                         static_cast<btScalar>(total[2]));
+}
+
+void WaterDrag::transferState(StateArchive& archive) {
+  archive.optional(m_surface, [&](WaterSurface& surface) { surface.transferState(archive); });
+  archive.value(m_totalForce, m_nodesVisited, m_trianglesVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -64,6 +64,7 @@ class WaterDrag : public Effect {
   /// moved by a thousandth of the body's size, its slope by 1e-3, its velocity by more than a tenth, or 0.01 m/s, its
   /// density by 1 %.
   bool wakes(const WetCloth& cloth, const Step& step) const override;
+  void transferState(StateArchive& archive) override;
 
   /// Force of the water on the whole cloth in the last step, buoyancy included [N].
   btVector3 totalForce() const { return m_totalForce; }

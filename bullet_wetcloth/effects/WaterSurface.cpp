@@ -2,6 +2,7 @@
 
 #include "bullet_wetcloth/Direction.h"
 #include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <string>
 
@@ -46,6 +47,8 @@ void requireSurface(const char* prefix, const std::optional<WaterSurface>& own, 
     reject(prefix, "is not set, and btSoftBodyWorldInfo::water_normal is of length 0: there is no water");
   }
 }
+
+void WaterSurface::transferState(StateArchive& archive) { archive.value(normal, offset, density, velocity); }
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

@@ -9,6 +9,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
+
 /// The level surface of a body of water: below it is where normal . x + offset < 0.
 struct WaterSurface {
   btVector3 normal = btVector3(0, 1, 0);    ///< out of the water, of any length > 0
@@ -18,6 +20,7 @@ struct WaterSurface {
 
   /// How far a point is below the surface [m], negative above it. The normal must be of length 1.
   double depth(const btVector3& x) const { return -static_cast<double>(normal.dot(x)) - offset; }
+  void transferState(StateArchive& archive);
 };
 
 /// Throws std::invalid_argument naming the field after `prefix` ("Immersion.surface") and the value.

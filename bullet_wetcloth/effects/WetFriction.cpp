@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/WetClothWorld.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -132,6 +133,8 @@ void WetFriction::changeSoft(WetCloth& cloth, btSoftBody& other) {
     change(*contact.positionBased, contact.point, nodePoint(contact.node));
   });
 }
+
+void WetFriction::transferState(StateArchive& archive) { archive.value(m_contactsVisited); }
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

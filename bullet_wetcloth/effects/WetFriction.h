@@ -49,6 +49,7 @@ class WetFriction : public Effect {
   /// Throws std::invalid_argument when Bullet lists none of this body's contacts, with the reason.
   void attach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
+  void transferState(StateArchive& archive) override;
 
   /// Contacts changed so far: for tests that count work.
   long long contactsVisited() const { return m_contactsVisited; }

@@ -3,6 +3,7 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/effects/HookeSprings.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -139,6 +140,13 @@ void WetStiffness::damp(WetCloth& cloth) {
     cloth.push(b, impulse * inverseMassB);
   }
   m_linksVisited += static_cast<long long>(m_shares.size());
+}
+
+void WetStiffness::transferState(StateArchive& archive) {
+  m_saturation.transferState(archive);
+  archive.array(m_factors);
+  archive.array(m_shares);
+  archive.value(m_sharesDt, m_factorsAreStale, m_constantsWillBeReset, m_linksVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

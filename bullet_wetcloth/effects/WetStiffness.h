@@ -66,6 +66,7 @@ class WetStiffness : public Effect {
   /// Gives the links the constants that Bullet would compute.
   void detach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
+  void transferState(StateArchive& archive) override;
 
   /// Links visited so far: for tests that count work. A settled cloth without damping adds none.
   long long linksVisited() const { return m_linksVisited; }

@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/effects/FluidResistance.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <Eigen/Core>
 
@@ -302,6 +303,8 @@ void Wind::scatter(WetCloth& cloth, const Step& step) {
   m_totalForce.setValue(static_cast<btScalar>(total[0]), static_cast<btScalar>(total[1]),
                         static_cast<btScalar>(total[2]));
 }
+
+void Wind::transferState(StateArchive& archive) { archive.value(m_totalForce, m_windAtCentre); }
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

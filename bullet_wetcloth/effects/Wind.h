@@ -72,6 +72,7 @@ class Wind : public Effect {
   void apply(WetCloth& cloth, const Step& step) override;
   /// When the air at the body's centre has changed by more than a tenth, or 0.1 m/s, since the last apply().
   bool wakes(const WetCloth& cloth, const Step& step) const override;
+  void transferState(StateArchive& archive) override;
 
   /// Force of the air per area on a triangle as it lies and moves now [Pa], before any integration; with Law::paper its
   /// three corners' together. Zero for a triangle without area. For a look at the wind: the step does not use it.

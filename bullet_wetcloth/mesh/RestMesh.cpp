@@ -1,6 +1,7 @@
 #include "bullet_wetcloth/mesh/RestMesh.h"
 
 #include "bullet_wetcloth/mesh/TriangleArea.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -87,6 +88,12 @@ int RestMesh::edgeBetween(int a, int b) const {
   const Edge wanted = {std::min(a, b), std::max(a, b), 0};
   const auto found = std::lower_bound(m_edges.begin(), m_edges.end(), wanted, isBefore);
   return found != m_edges.end() && ends(*found) == ends(wanted) ? static_cast<int>(found - m_edges.begin()) : -1;
+}
+
+void RestMesh::transferState(StateArchive& archive) {
+  archive.each(m_edges, [&](Edge& edge) { archive.value(edge.length); });
+  archive.each(m_triangles, [&](Triangle& triangle) { archive.value(triangle.area); });
+  archive.array(m_nodeAreas);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -11,6 +11,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
+
 /// The triangles of a cloth at rest, known by the rest lengths of their edges: those of the body's links, and the
 /// present length where no link follows an edge. So it is the same however the body is bent when it is made.
 ///
@@ -44,6 +46,9 @@ class RestMesh {
   const std::vector<Triangle>& triangles() const { return m_triangles; }
   /// A third of the node's triangles [m^2]; 0 for a node of no triangle.
   const std::vector<double>& nodeAreas() const { return m_nodeAreas; }
+  /// Lengths and areas; the same faces make the same triangles.
+  void transferState(StateArchive& archive);
+
   /// Nodes that share an edge of a triangle with this one.
   Neighbours neighbours(std::size_t node) const {
     return {m_neighbours.data() + m_firstNeighbour[node], m_neighbours.data() + m_firstNeighbour[node + 1]};

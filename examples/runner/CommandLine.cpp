@@ -36,6 +36,8 @@ const char* const examples = R"(Examples:
   wetcloth run hanging_towel.json                       run a scene and say what came of it
   wetcloth run flag_wind_100.json --frames pictures     and paint it: pictures/frame_0000.svg, ...
   wetcloth run curtain.json --quality accurate --json result.json
+  wetcloth run curtain.json --checkpoint curtain.state --every 600    keep where it is; after a crash go on with
+  wetcloth run curtain.json --resume curtain.state                    --resume
   wetcloth view rain_on_umbrella_cloth.json             play with it in a window: drag the cloth, change the weather
   wetcloth render flag_wind_100.json --out flag.mp4     a film; .png, .gif, .webm as well; needs no display
   wetcloth render hanging_towel.json --out towel.html   a page: orbit, play, scrub, plots
@@ -83,6 +85,14 @@ void addRun(CLI::App& app, RunOptions& options, char** arguments) {
       ->check(oneOf("--quality", namesOf(qualityNames())));
   run->add_option("--error-budget", options.errorBudget,
                   "The same for an error of your own, e.g. 1e-2, in all that the scene's effects were measured by");
+  CLI::Option* const checkpoint = run->add_option(
+      "--checkpoint", options.checkpoint, "File that is replaced now and then by the run as it is, for --resume");
+  run->add_option("--every", options.every, "Steps of the scene from one checkpoint to the next")
+      ->capture_default_str()
+      ->needs(checkpoint);
+  run->add_option("--resume", options.resume,
+                  "Checkpoint to go on from; the run ends as if it had not been interrupted")
+      ->excludes(frames);
   run->add_option("--duration", options.duration, "Simulated time [s], instead of the scene's own");
   run->add_option("--precision", options.precision, "Instead of the scene's own")
       ->check(oneOf("--precision", namesOf(precisionNames())));
@@ -92,6 +102,9 @@ void addRun(CLI::App& app, RunOptions& options, char** arguments) {
     }
     if (options.errorBudget && !options.quality.empty()) {
       throw InputError("wetcloth: --error-budget and --quality: give one of the two");
+    }
+    if (options.every < 1) {
+      throw InputError("wetcloth: --every = " + std::to_string(options.every) + ": must be at least 1");
     }
     runScene(options, arguments);
   });

@@ -29,6 +29,16 @@ void DripRecord::note(const SceneWorld& world) {
   ++m_noted;
 }
 
+nlohmann::ordered_json DripRecord::progress() const {
+  return {{"noted", m_noted}, {"mass_kg", m_mass}, {"kg_by_tenth", m_massByTenth}};
+}
+
+void DripRecord::goOnFrom(const nlohmann::ordered_json& progress) {
+  m_noted = progress.at("noted").get<int>();
+  m_mass = progress.at("mass_kg").get<double>();
+  m_massByTenth = progress.at("kg_by_tenth").get<std::array<double, 10>>();
+}
+
 nlohmann::ordered_json DripRecord::json() const {
   return {{"count", m_drops}, {"mass_kg", m_mass}, {"pending_kg", m_pending}, {"kg_by_tenth", m_massByTenth}};
 }

@@ -18,6 +18,10 @@ class DripRecord {
   /// After each step of the run.
   void note(const SceneWorld& world);
 
+  /// What was noted so far, and to go on from that.
+  nlohmann::ordered_json progress() const;
+  void goOnFrom(const nlohmann::ordered_json& progress);
+
   /// Whether a cloth has the effect.
   bool isOn() const { return m_isOn; }
   nlohmann::ordered_json json() const;

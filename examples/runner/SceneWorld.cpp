@@ -144,6 +144,13 @@ void SceneWorld::continueFrom(const SceneWorld& other) {
   }
 }
 
+void SceneWorld::save(std::ostream& stream) const { m_wetWorld->save(stream); }
+
+void SceneWorld::restore(std::istream& stream, int steps) {
+  m_wetWorld->restore(stream);
+  m_steps = steps;
+}
+
 void SceneWorld::finish() {
   for (wetcloth::CollisionAudit* audit : m_audits) audit->look();
 }

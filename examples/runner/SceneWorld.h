@@ -7,6 +7,7 @@
 #include "Twist.h"
 
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <vector>
 
@@ -33,6 +34,11 @@ class SceneWorld {
   void setIterations(int iterations);
   /// Goes on from where another world of the same scene is: its time, places and velocities, not its water.
   void continueFrom(const SceneWorld& other);
+
+  /// What the wet world is in now, to go on from it in another run of the same scene: not the drops that fall, which
+  /// are for pictures only. Throws wetcloth::StateError as wetcloth::WetClothWorld::save() and restore() do.
+  void save(std::ostream& stream) const;
+  void restore(std::istream& stream, int steps);
 
   const Scene& scene() const { return m_scene; }
   /// Simulated [s].

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "bullet_wetcloth/state/StateArchive.h"
+
+#include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// A world's broadphase: its two trees of boxes, which objects have moved lately, and the order of the overlapping
+/// pairs, in which contacts are found. Of a broadphase that is no btDbvtBroadphase only the order of the pairs.
+void transferBroadphase(StateArchive& archive, btCollisionWorld& world);
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
