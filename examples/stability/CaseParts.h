@@ -42,7 +42,7 @@ class Weather {
   };
   /// @param cloth  of this body; null where it cannot get wet
   Weather(CaseScene& scene, btSoftBody& body, wetcloth::WetCloth* cloth, Kind kind, const btVector3& air,
-          double skinFriction = 0);
+          double skinFriction = 0.02);
 
   void blow(const btVector3& air);
   const btVector3& air() const { return m_air; }

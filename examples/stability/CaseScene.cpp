@@ -47,8 +47,10 @@ btSoftBody& CaseScene::add(std::unique_ptr<btSoftBody> body, double stiffness) {
   runner::DeformableSprings springs;
   springs.stiffness = stiffness;
   springs.bendingStiffness = kBendingShare * stiffness;
-  const bool bulletPulls = !(m_world == World::deformable && isOurs());
-  btSoftBody& added = m_bullet->add(std::move(body), bulletPulls ? &springs : nullptr);
+  btSoftBody& added = m_bullet->add(std::move(body), isOurs() ? nullptr : &springs);
+  // Bullet's deformable world builds a tree of the faces for its collisions, and never returns from that where they are
+  // not all connected by edges.
+  added.m_cfg.collisions = 0;
   m_cloths.push_back({&added, stiffness});
   return added;
 }
@@ -72,7 +74,7 @@ wetcloth::WetCloth* CaseScene::wet(btSoftBody& body, const wetcloth::Fabric& fab
   if (!isOurs()) return nullptr;
   Cloth& cloth = clothOf(body);
   cloth.wet = &m_wetWorld->add(body, fabric);
-  if (m_world == World::deformable && body.m_links.size() > 0) {
+  if (isDeformable(m_world)) {
     wetcloth::HookeSprings::Parameters springs;
     springs.stiffness = cloth.stiffness;
     springs.bendingStiffness = kBendingShare * cloth.stiffness;

@@ -123,7 +123,8 @@ HardCase absorbedAtOnce() {
       rain.waterVelocity = btVector3(0, -5, 5);
       cloth->add<wetcloth::Absorption>(rain);
     } else {
-      // The water's momentum in plain Bullet: all of the cloth has it from the beginning.
+      // In plain Bullet the cloth has the water's mass and momentum from the beginning.
+      obvious::writeMassesWithoutMomentum(body, obvious::massesOf(body), 1 + fabric.capacity);
       const btScalar share = btScalar(fabric.capacity / (1 + fabric.capacity));
       for (int i = 0; i < body.m_nodes.size(); ++i) {
         btSoftBody::Node& node = body.m_nodes[i];

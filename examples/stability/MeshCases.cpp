@@ -135,7 +135,7 @@ Mesh ofSize(double size) {
 /// Hangs from its pins in wind and rain for half of the time, then in still air.
 HardCase ofMesh(const std::string& name, const std::string& about, const std::function<Mesh()>& make) {
   HardCase hardCase = everywhere(name, "meshes", about);
-  hardCase.duration = 6;
+  hardCase.duration = 10;
   hardCase.build = [=](CaseScene& scene) {
     const Mesh mesh = make();
     const double mass = mesh.nodeMass * static_cast<double>(mesh.nodes.size());

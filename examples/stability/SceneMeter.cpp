@@ -88,8 +88,9 @@ bool SceneMeter::observe() {
 void SceneMeter::finish() {
   const Limits& limits = m_scene.limits;
   if (!(m_scene.time() > limits.calmFrom)) return;
-  const double fall = m_mass * m_scene.gravity() * limits.drop;
-  m_meter.compare("rest", m_kineticEnergy, kRestShare * fall + m_mass * kSmallSpeed * kSmallSpeed);
+  const double fall = m_scene.gravity() * limits.drop;
+  const double putIn = fall > 0 ? fall : limits.source * limits.source / 2;
+  m_meter.compare("rest", m_kineticEnergy, m_mass * (kRestShare * putIn + kSmallSpeed * kSmallSpeed));
   for (const CaseScene::Cloth& cloth : m_scene.cloths()) observeLinks(cloth, "final stretch", kFinalStretch, 0);
 }
 

@@ -15,7 +15,9 @@ namespace stability {
 /// - `ledger`: initial + absorbed = held + dripped + evaporated to 1e-12 of what was booked, and no node holds less
 /// than
 ///   nothing or more than it can;
-/// - `rest`: after the calm, kinetic energy is below a hundredth of what falling through the drop gives;
+/// - `rest`: after the calm, kinetic energy is below a hundredth of what falling through the drop gives, or, where
+/// there
+///   is no weight, of what the fastest source gave;
 /// - `final stretch`: after the calm, no link is longer than at rest by more than a tenth and its static stretch.
 class SceneMeter {
  public:

@@ -17,8 +17,7 @@ HardCase hooke(const char* name, const char* about, double stiffness) {
     double mass = 0;
     for (const double one : obvious::massesOf(body)) mass += one;
     wetcloth::WetCloth* const cloth = scene.wet(body);
-    if (cloth != nullptr && scene.world() != World::deformable) {
-      // In the implicit world they come on top of Bullet's own springs.
+    if (cloth != nullptr && !isDeformable(scene.world())) {
       wetcloth::HookeSprings::Parameters springs;
       springs.stiffness = stiffness;
       springs.bendingStiffness = 0.01 * stiffness;

@@ -3,6 +3,7 @@
 #include "ObviousWays.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -34,7 +35,7 @@ struct WashingLine {
 HardCase onTheLine(std::string name, std::string about, std::function<void(CaseScene&, WashingLine&, Script&)> disturb,
                    double longestStep = 1) {
   HardCase hardCase = everywhere(std::move(name), "time", std::move(about));
-  hardCase.duration = 6;
+  hardCase.duration = 10;
   hardCase.build = [=](CaseScene& scene) {
     auto line = std::make_shared<WashingLine>(scene);
     Script script;
@@ -84,15 +85,15 @@ HardCase hitches() {
                    });
 }
 
-HardCase timescales() {
+/// btSoftBody's timescale, each of the five for ten steps.
+HardCase timescales(const char* name, const char* about, std::array<double, 5> scales) {
   return onTheLine(
-      "time_scale_changes", "btSoftBody's timescale: 1, 1/2, 0, 2, 1/10, each for ten steps",
-      [](CaseScene& scene, WashingLine& line, Script& script) {
+      name, about,
+      [=](CaseScene& scene, WashingLine& line, Script& script) {
         scene.limits.stretch *= 2;
-        script.before = [&scene, body = &line.body] {
-          static constexpr double scales[5] = {1, 0.5, 0, 2, 0.1};
+        script.before = [=, &scene, body = &line.body] {
           const bool isCalm = scene.time() >= scene.limits.calmFrom;
-          body->m_cfg.timescale = isCalm ? 1 : btScalar(scales[scene.steps() / 10 % 5]);
+          body->m_cfg.timescale = isCalm ? 1 : btScalar(scales[static_cast<std::size_t>(scene.steps() / 10 % 5)]);
         };
       },
       2);
@@ -122,9 +123,7 @@ HardCase effectsComeAndGo() {
                          added->clear();
                        } else if (added->empty() && scene.time() < scene.limits.calmFrom) {
                          added->push_back(&cloth->add<wetcloth::Swelling>());
-                         // Bullet's own springs in the deformable world take no factor.
-                         const double factor = scene.world() == World::deformableImplicit ? 1 : 0.8;
-                         added->push_back(&cloth->add<wetcloth::WetStiffness>({factor, factor, 2, 2}));
+                         added->push_back(&cloth->add<wetcloth::WetStiffness>({0.8, 0.8, 2, 2}));
                          added->push_back(&cloth->add<wetcloth::Wind>({btVector3(0, 0, -5)}));
                          added->push_back(&cloth->add<wetcloth::Seepage>());
                        }
@@ -182,8 +181,16 @@ HardCase worldsInAnyOrder() {
 }  // namespace
 
 std::vector<HardCase> timeCases() {
-  return {varyingSteps(),   pauses(),           hitches(),    timescales(),
-          gravityChanges(), effectsComeAndGo(), bodyLeaves(), worldsInAnyOrder()};
+  return {varyingSteps(),
+          pauses(),
+          hitches(),
+          timescales("time_scale_changes", "the body's time scale goes through 1, 1/2, 1/100, 2 and 1/10",
+                     {1, 0.5, 0.01, 2, 0.1}),
+          timescales("time_scale_0", "the body's time stands still now and then", {1, 0, 1, 0, 1}),
+          gravityChanges(),
+          effectsComeAndGo(),
+          bodyLeaves(),
+          worldsInAnyOrder()};
 }
 
 }  // namespace stability

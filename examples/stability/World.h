@@ -11,7 +11,7 @@ enum class World {
   softRigid,
   softMultiBody,
   deformable,          ///< explicit; our HookeSprings hold the cloth, in plain Bullet its own springs do
-  deformableImplicit,  ///< with projection; Bullet's own springs hold the cloth
+  deformableImplicit,  ///< the same, implicit with projection
   none                 ///< cases of pure computation
 };
 
