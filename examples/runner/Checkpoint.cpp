@@ -75,7 +75,9 @@ std::string contentOf(const std::string& file) {
 
 nlohmann::ordered_json runIdentity(const RunOptions& options, const Scene& scene, int steps) {
   return {{"precision", nameOf(ownPrecision)},
-          {"quality", options.quality},
+          {"quality", scene.quality},
+          {"substeps", scene.substeps},
+          {"iterations", scene.iterations},
           {"steps", steps},
           {"scene", hashOf(scene, options.scene)}};
 }

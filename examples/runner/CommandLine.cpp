@@ -14,6 +14,9 @@
 #include "ValidateCommand.h"
 
 #include "../accuracy/AccuracyCommand.h"
+#include "../stability/StabilityCommand.h"
+#include "../stability/StabilityTable.h"
+#include "../stability/World.h"
 #include "../viewer/ViewCommand.h"
 
 #include <CLI/CLI.hpp>
@@ -49,6 +52,7 @@ const char* const examples = R"(Examples:
   wetcloth export curtain.json --format vtk --out curtain   for ParaView; for Blender, Houdini, ... see --help
   wetcloth validate *.json                              check scenes without running them
   wetcloth ccd queries.csv.gz --method exact            collision checks against exact answers
+  wetcloth stability --group winds                      hard cases, and how near they come to what physics allows
 
 Exit status: 0 done; 1 the run failed; 2 bad usage or bad input, with one line on standard error.)";
 
@@ -271,6 +275,27 @@ void addCcd(CLI::App& app, CcdOptions& options, char** arguments) {
   ccd->callback([&options, arguments] { checkQueries(options, arguments); });
 }
 
+void addStability(CLI::App& app, stability::StabilityOptions& options, char** arguments) {
+  CLI::App* const command =
+      app.add_subcommand("stability", "Try hard cases, each long enough to blow up, against the bounds of physics");
+  command->add_option("--case", options.name, "One of them; default is all of docs/stability.md")
+      ->check(oneOf("--case", stability::caseNames()));
+  command->add_option("--group", options.group, "One group of them")->check(oneOf("--group", stability::groupNames()));
+  command->add_option("--world", options.world, "Bullet's world; none: the cases that need no world")
+      ->check(oneOf("--world", namesOf(stability::stabilityWorlds())));
+  command->add_option("--step", options.step,
+                      "One step [s], 0.01 or 1/100, instead of 1/1000, 1/240, 1/60, 1/30, 1/10");
+  command->add_option("--precision", options.precision, "Of Bullet; default is that of this program")
+      ->check(oneOf("--precision", namesOf(precisionNames())));
+  command->add_flag("--quick", options.isQuick, "Only the steps 1/240 s and 1/30 s, and a minute of laundry");
+  command->add_option("--json", options.json, "File for the results as JSON; - is standard output, with nothing else");
+  command->add_option(
+      "--markdown", options.markdown,
+      "File in which the table is written between the lines <!-- stability PRECISION --> and <!-- end of "
+      "stability PRECISION -->");
+  command->callback([&options, arguments] { stability::tryHardCases(options, arguments); });
+}
+
 /// CLI11 calls an unknown subcommand an extra argument.
 void requireKnownCommand(const CLI::App& app, int count, char** arguments) {
   std::vector<std::string> names;
@@ -311,6 +336,7 @@ int runCommandLine(int count, char** arguments) {
   CostOptions cost;
   viewer::ViewOptions view;
   CcdOptions ccd;
+  stability::StabilityOptions hardCases;
   PlotOptions plot;
   accuracy::AccuracyOptions studied;
   ExportOptions exported;
@@ -326,6 +352,7 @@ int runCommandLine(int count, char** arguments) {
   addView(app, view, arguments);
   addValidate(app, files);
   addCcd(app, ccd, arguments);
+  addStability(app, hardCases, arguments);
   try {
     requireKnownCommand(app, count, arguments);
     if (arguments[1][0] != '-') requireKnownOptions(*app.get_subcommand(arguments[1]), count, arguments);

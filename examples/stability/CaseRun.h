@@ -1,0 +1,39 @@
+#pragma once
+
+#include "CaseMeter.h"
+#include "HardCase.h"
+
+#include <optional>
+
+namespace stability {
+
+/// How long the long cases are run.
+enum class Effort { full, quick };
+
+/// Runs a case in one world at one step, in one way, until its end or until a number is not finite.
+/// @param world  one of the case's; @param dt  of each step [s], > 0
+CaseMeter runCase(const HardCase& hardCase, World world, Way way, double dt, Effort effort = Effort::full);
+
+/// A case in one world at one step: ours, plain Bullet and, where there is one, the obvious way.
+struct CaseResult {
+  enum class Verdict {
+    holds,
+    fails,
+    bulletFails  ///< whatever bound ours fails, the same case without any effect of ours fails, too
+  };
+
+  const HardCase* hardCase;
+  World world;
+  double step;  ///< [s]
+  CaseMeter ours;
+  std::optional<CaseMeter> plainBullet;  ///< none for cases without a world
+  std::optional<CaseMeter> obviousWay;
+
+  Verdict verdict() const;
+};
+
+CaseResult tryCase(const HardCase& hardCase, World world, double dt, Effort effort = Effort::full);
+
+const char* nameOf(CaseResult::Verdict verdict);
+
+}  // namespace stability

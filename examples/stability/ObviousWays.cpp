@@ -1,0 +1,82 @@
+#include "ObviousWays.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace stability::obvious {
+namespace {
+
+constexpr double kHalfDensityAndDrag = 0.5 * 1.225 * 1.2;  // rho C_d / 2 of Wind's defaults [kg/m^3]
+
+}  // namespace
+
+std::vector<double> massesOf(const btSoftBody& body) {
+  std::vector<double> masses;
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    const double inverse = double(body.m_nodes[i].m_im);
+    masses.push_back(inverse > 0 ? 1 / inverse : 0);
+  }
+  return masses;
+}
+
+void setMasses(btSoftBody& body, const std::vector<double>& dry, double factor) {
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    const double mass = dry[static_cast<std::size_t>(i)];
+    if (mass > 0) body.setMass(i, btScalar(mass * factor));
+  }
+}
+
+void writeMassesOnly(btSoftBody& body, const std::vector<double>& dry, double factor) {
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    const double mass = dry[static_cast<std::size_t>(i)];
+    if (mass > 0) body.m_nodes[i].m_im = btScalar(1 / (mass * factor));
+  }
+}
+
+void writeMassesWithoutMomentum(btSoftBody& body, const std::vector<double>& dry, double factor) {
+  writeMassesOnly(body, dry, factor);
+  body.updateLinkConstants();
+}
+
+void pushByWind(btSoftBody& body, const btVector3& air, double dt) {
+  std::vector<btVector3> forces(static_cast<std::size_t>(body.m_nodes.size()), btVector3(0, 0, 0));
+  for (int f = 0; f < body.m_faces.size(); ++f) {
+    btSoftBody::Node* const* corners = body.m_faces[f].m_n;
+    const btVector3 twice = (corners[1]->m_x - corners[0]->m_x).cross(corners[2]->m_x - corners[0]->m_x);
+    const btScalar length = twice.length();
+    if (!(length > 0)) continue;
+    const btVector3 normal = twice / length;
+    const btVector3 relative = air - (corners[0]->m_v + corners[1]->m_v + corners[2]->m_v) / 3;
+    const btScalar along = relative.dot(normal);
+    const btScalar size = btScalar(kHalfDensityAndDrag) * (length / 2) * btFabs(along) * along;
+    for (int k = 0; k < 3; ++k) forces[static_cast<std::size_t>(corners[k] - &body.m_nodes[0])] += normal * (size / 3);
+  }
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    const btVector3 change = forces[static_cast<std::size_t>(i)] * (body.m_nodes[i].m_im * btScalar(dt));
+    body.m_nodes[i].m_v += change;
+    body.m_nodes[i].m_vn += change;
+  }
+}
+
+void dragByAir(btSoftBody& body, const btVector3& air, double dt) {
+  std::vector<double> areas(static_cast<std::size_t>(body.m_nodes.size()), 0);
+  for (int f = 0; f < body.m_faces.size(); ++f) {
+    btSoftBody::Node* const* corners = body.m_faces[f].m_n;
+    const btVector3 twice = (corners[1]->m_x - corners[0]->m_x).cross(corners[2]->m_x - corners[0]->m_x);
+    for (int k = 0; k < 3; ++k)
+      areas[static_cast<std::size_t>(corners[k] - &body.m_nodes[0])] += double(twice.length()) / 6;
+  }
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    btSoftBody::Node& node = body.m_nodes[i];
+    const btVector3 relative = air - node.m_v;
+    const double rate =
+        kHalfDensityAndDrag * areas[static_cast<std::size_t>(i)] * double(relative.length() * node.m_im);
+    // du/dt = -k u^2
+    const btVector3 change = relative * btScalar(rate * dt / (1 + rate * dt));
+    if (!std::isfinite(double(change.length2()))) continue;
+    node.m_v += change;
+    node.m_vn += change;
+  }
+}
+
+}  // namespace stability::obvious
