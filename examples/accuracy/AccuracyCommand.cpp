@@ -2,6 +2,7 @@
 
 #include "MeasuredFile.h"
 #include "PrecisionStudy.h"
+#include "QualityTable.h"
 #include "Studies.h"
 #include "StudyPlot.h"
 #include "StudyReport.h"
@@ -84,8 +85,11 @@ class StudyFiles {
   }
   void finish() const {
     if (!m_plots) return;
-    write("studies.md", "## Studies (" + runner::nameOf(runner::ownPrecision) + ")\n\n" + m_page);
-    write("measured.json", measuredJson(m_studies).dump(1) + "\n");
+    const nlohmann::ordered_json measured = measuredJson(m_studies);
+    write("measured.json", measured.dump(1) + "\n");
+    const std::string qualities = markdownOf(qualityRows(measured));
+    write("studies.md", (qualities.empty() ? "" : "## Qualities\n\n" + qualities + "\n") + "## Studies (" +
+                            runner::nameOf(runner::ownPrecision) + ")\n\n" + m_page);
     if (m_plots->hasPictures()) return;
     std::cerr << "wetcloth: no gnuplot, so no pictures, only tables (Debian: apt install gnuplot-nox)\n";
   }
@@ -120,8 +124,10 @@ void studyAccuracy(const AccuracyOptions& options, char** arguments) {
   runner::JsonOutput output(options.json);
   StudyFiles files(options.directory);
   Json studies = Json::array();
+  std::vector<Study> all;
   const auto report = [&](const std::vector<Study>& more) {
     for (const Study& study : more) {
+      all.push_back(study);
       files.add(study);
       studies.push_back(jsonOf(study));
       if (!output.ownsStandardOutput()) std::printf("%s\n", textOf(study).c_str());
@@ -133,7 +139,12 @@ void studyAccuracy(const AccuracyOptions& options, char** arguments) {
   }
   if (options.study == "all" || options.study == "precision") report(studyPrecision(arguments));
   files.finish();
-  output.write({{"precision", runner::nameOf(runner::ownPrecision)}, {"quick", options.isQuick}, {"studies", studies}});
+  const std::vector<QualityRow> qualities = qualityRows(measuredJson(all));
+  if (!output.ownsStandardOutput()) std::fputs(markdownOf(qualities).c_str(), stdout);
+  output.write({{"precision", runner::nameOf(runner::ownPrecision)},
+                {"quick", options.isQuick},
+                {"studies", studies},
+                {"qualities", jsonOf(qualities)}});
 }
 
 }  // namespace accuracy

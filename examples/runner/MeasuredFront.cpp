@@ -2,8 +2,6 @@
 
 #include "Measured.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,21 +9,6 @@
 
 namespace runner {
 namespace {
-
-std::vector<MeasuredPoint> readPoints() {
-  std::vector<MeasuredPoint> points;
-  for (const nlohmann::json& json : nlohmann::json::parse(embedded::measured_json).at("points")) {
-    MeasuredPoint point;
-    point.study = json.at("study");
-    point.method = json.at("method");
-    point.substep = json.at("substep_s");
-    point.iterations = json.at("iterations");
-    point.error = json.at("error").is_null() ? std::numeric_limits<double>::infinity() : json.at("error").get<double>();
-    point.time = json.at("us_per_node_second");
-    points.push_back(std::move(point));
-  }
-  return points;
-}
 
 std::string elasticityOf(const Scene& scene) {
   const auto hasSprings = [](const ClothScene& cloth) { return cloth.hasEffect("hooke_springs"); };
@@ -47,9 +30,9 @@ bool concerns(const MeasuredPoint& point, const StudyOfScene& study, const Stepp
 }
 
 /// Those of the cloth's own studies, which all have both; without a cloth's study the steps of all.
-std::vector<Stepping> steppings(const std::vector<StudyOfScene>& studies) {
+std::vector<Stepping> steppings(const std::vector<StudyOfScene>& studies, const std::vector<MeasuredPoint>& points) {
   std::vector<Stepping> found;
-  for (const MeasuredPoint& point : measuredPoints()) {
+  for (const MeasuredPoint& point : points) {
     const bool isWanted = std::any_of(studies.begin(), studies.end(), [&](const StudyOfScene& study) {
       return isOfCloth(study) && point.study == study.study && point.method == study.method;
     });
@@ -60,13 +43,13 @@ std::vector<Stepping> steppings(const std::vector<StudyOfScene>& studies) {
 }
 
 /// None (a step of 0) when one of the studies was not made with this stepping.
-SteppingChoice choiceOf(const std::vector<StudyOfScene>& studies, const Stepping& stepping) {
+SteppingChoice choiceOf(const std::vector<StudyOfScene>& studies, const Stepping& stepping,
+                        const std::vector<MeasuredPoint>& points) {
   SteppingChoice choice;
   for (const StudyOfScene& study : studies) {
-    const auto& all = measuredPoints();
-    const auto point =
-        std::find_if(all.begin(), all.end(), [&](const MeasuredPoint& one) { return concerns(one, study, stepping); });
-    if (point == all.end()) return {};
+    const auto point = std::find_if(points.begin(), points.end(),
+                                    [&](const MeasuredPoint& one) { return concerns(one, study, stepping); });
+    if (point == points.end()) return {};
     choice.expected.push_back({study, point->error});
     // Of the cloth's studies the time is that of the whole step; the slower of them counts.
     if (isOfCloth(study)) choice.time = std::max(choice.time, point->time);
@@ -78,8 +61,23 @@ SteppingChoice choiceOf(const std::vector<StudyOfScene>& studies, const Stepping
 
 }  // namespace
 
+std::vector<MeasuredPoint> readMeasuredPoints(const nlohmann::json& file) {
+  std::vector<MeasuredPoint> points;
+  for (const nlohmann::json& json : file.at("points")) {
+    MeasuredPoint point;
+    point.study = json.at("study");
+    point.method = json.at("method");
+    point.substep = json.at("substep_s");
+    point.iterations = json.at("iterations");
+    point.error = json.at("error").is_null() ? std::numeric_limits<double>::infinity() : json.at("error").get<double>();
+    point.time = json.at("us_per_node_second");
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
 const std::vector<MeasuredPoint>& measuredPoints() {
-  static const std::vector<MeasuredPoint> points = readPoints();
+  static const std::vector<MeasuredPoint> points = readMeasuredPoints(nlohmann::json::parse(embedded::measured_json));
   return points;
 }
 
@@ -103,7 +101,8 @@ const SteppingChoice::Expectation& SteppingChoice::worst() const {
                            [](const Expectation& a, const Expectation& b) { return a.error < b.error; });
 }
 
-SteppingChoice cheapestStepping(const std::vector<StudyOfScene>& studies, double error) {
+SteppingChoice cheapestStepping(const std::vector<StudyOfScene>& studies, double error,
+                                const std::vector<MeasuredPoint>& points) {
   SteppingChoice best;
   const auto isBetter = [error](const SteppingChoice& one, const SteppingChoice& other) {
     const bool isGood = one.largestError() <= error;
@@ -111,8 +110,8 @@ SteppingChoice cheapestStepping(const std::vector<StudyOfScene>& studies, double
     if (!isGood && one.largestError() != other.largestError()) return one.largestError() < other.largestError();
     return one.time < other.time;
   };
-  for (const Stepping& stepping : steppings(studies)) {
-    SteppingChoice choice = choiceOf(studies, stepping);
+  for (const Stepping& stepping : steppings(studies, points)) {
+    SteppingChoice choice = choiceOf(studies, stepping, points);
     if (choice.substep == 0) continue;
     if (best.substep == 0 || isBetter(choice, best)) best = std::move(choice);
   }

@@ -2,6 +2,8 @@
 
 #include "Scene.h"
 
+#include <nlohmann/json.hpp>
+
 #include <string>
 #include <vector>
 
@@ -19,6 +21,8 @@ struct MeasuredPoint {
 
 /// All that was measured, on one machine: see docs/accuracy.md.
 const std::vector<MeasuredPoint>& measuredPoints();
+/// The points of a file such as measured.json.
+std::vector<MeasuredPoint> readMeasuredPoints(const nlohmann::json& file);
 
 /// A study that bears on a scene, and the way in which the scene does it.
 struct StudyOfScene {
@@ -48,7 +52,8 @@ struct SteppingChoice {
 
 /// The cheapest way that was measured whose error is at most `error` in each of these studies; when there is none, the
 /// most accurate one, and of several that are as accurate the cheapest.
-SteppingChoice cheapestStepping(const std::vector<StudyOfScene>& studies, double error);
+SteppingChoice cheapestStepping(const std::vector<StudyOfScene>& studies, double error,
+                                const std::vector<MeasuredPoint>& points = measuredPoints());
 
 /// Steps the scene in that way: as many substeps as its step needs.
 void apply(const SteppingChoice& choice, Scene& scene);
