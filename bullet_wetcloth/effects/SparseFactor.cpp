@@ -2,6 +2,9 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <algorithm>
+#include <numeric>
+
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
@@ -14,6 +17,12 @@ void SparseFactor::compute(const Eigen::SparseMatrix<double>& matrix) {
   m_firstOfColumn.assign(1, 0);
   m_rows.clear();
   m_values.clear();
+  if (factor.info() != Eigen::Success) {
+    m_firstOfColumn.assign(m_permutation.size() + 1, 0);
+    std::fill(m_inverseDiagonal.begin(), m_inverseDiagonal.end(), 0);
+    std::iota(m_permutation.begin(), m_permutation.end(), 0);
+    return;
+  }
   m_rows.reserve(static_cast<std::size_t>(lower.nonZeros()));
   m_values.reserve(static_cast<std::size_t>(lower.nonZeros()));
   for (Eigen::Index j = 0; j < size; ++j) {

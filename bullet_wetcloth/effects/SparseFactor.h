@@ -15,7 +15,8 @@ inline namespace WETCLOTH_PRECISION {
 /// right-hand sides share one pass over the factor, neither of which Eigen's own solve() offers.
 class SparseFactor {
  public:
-  /// Factors the matrix, of which only the lower triangle is read.
+  /// Factors the matrix, of which only the lower triangle is read. When it is not positive definite, all solutions are
+  /// 0.
   void compute(const Eigen::SparseMatrix<double>& matrix);
 
   std::size_t size() const { return m_inverseDiagonal.size(); }

@@ -155,19 +155,20 @@ void SpringSolver::transferState(StateArchive& archive, const std::vector<Spring
   std::vector<SpringNode> nodes(m_row.size());
   double dt = m_factoredDt;
   archive.local(dt);
-  archive.array(m_factoredMass);
-  archive.growingArray(m_factoredStiffness);
+  const bool hasFactor = dt > 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    nodes[i].isFixed = m_row[i] < 0;
-    archive.value(nodes[i].isFixed);
+    unsigned char isFixed = m_row[i] < 0 ? 1 : 0;
     nodes[i].mass = m_factoredMass[i];
+    archive.local(isFixed);
+    archive.local(nodes[i].mass);
+    nodes[i].isFixed = isFixed != 0;
   }
-  const bool hasFactor = dt > 0 && m_factoredStiffness.size() == factored.size();
-  if (archive.isRestoring() && hasFactor) {
-    for (std::size_t k = 0; k < factored.size(); ++k) factored[k].stiffness = m_factoredStiffness[k];
-    factor(factored, nodes, dt);
+  for (std::size_t k = 0; hasFactor && k < factored.size(); ++k) {
+    if (archive.isSaving()) factored[k].stiffness = m_factoredStiffness[k];
+    archive.local(factored[k].stiffness);
   }
-  if (archive.isRestoring()) m_factoredDt = hasFactor ? dt : 0;
+  if (archive.isRestoring()) m_factoredDt = 0;
+  if (archive.isRestoring() && hasFactor) factor(factored, nodes, dt);
   archive.value(m_factorizations);
 }
 

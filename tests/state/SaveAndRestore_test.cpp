@@ -23,6 +23,9 @@ std::vector<Case> reproducibleCases() {
       if (!(isDeformable && story == Story::clothOnCloth)) cases.push_back({kind, story});
     }
   }
+  for (const WorldKind kind : {WorldKind::deformable, WorldKind::deformableImplicit}) {
+    cases.push_back({kind, Story::sleeping});
+  }
   return cases;
 }
 
@@ -34,8 +37,14 @@ std::string nameOfCase(const testing::TestParamInfo<Case>& test) {
 
 INSTANTIATE_TEST_SUITE_P(, SaveAndRestore, testing::ValuesIn(reproducibleCases()), nameOfCase);
 
+// Of the sleeper: before and after it falls asleep.
+std::vector<int> savedSteps(const Case& what) {
+  if (what.story == Story::sleeping) return {1, 150, 240, 300};
+  return {0, 1, 6, 25, 60, 120};
+}
+
 TEST_P(SaveAndRestore, GoesOnBitForBit) {
-  for (const int saveAt : {0, 1, 6, 25, 60, 120}) {
+  for (const int saveAt : savedSteps(GetParam())) {
     StateScene early(GetParam());
     early.step(saveAt);
     const std::string state = early.saved();
@@ -60,6 +69,15 @@ TEST_P(SaveAndRestore, OfARestoredWorldSavesTheSameBytes) {
   StateScene late(GetParam());
   late.restore(state);
   EXPECT_EQ(late.saved(), state);
+}
+
+TEST(SaveAndRestoreASleeper, WhichSleepsWhenItIsSaved) {
+  StateScene early({WorldKind::deformable, Story::sleeping});
+  early.step(240);
+  EXPECT_FALSE(early.cloth().body().isActive());
+  StateScene late({WorldKind::deformable, Story::sleeping});
+  late.restore(early.saved());
+  EXPECT_FALSE(late.cloth().body().isActive());
 }
 
 // Going back to an earlier state of the same world.

@@ -20,10 +20,10 @@ namespace state_scene {
 
 using namespace wetcloth_test;
 
-enum class Story { hanging, onRigid, clothOnCloth };
+enum class Story { hanging, onRigid, clothOnCloth, sleeping };
 
 inline std::ostream& operator<<(std::ostream& out, Story story) {
-  const char* const names[] = {"hanging", "onRigid", "clothOnCloth"};
+  const char* const names[] = {"hanging", "onRigid", "clothOnCloth", "sleeping"};
   return out << names[static_cast<int>(story)];
 }
 
@@ -35,13 +35,16 @@ struct Case {
 /// A world that is built in the same way each time, with every effect that its cloths can have.
 class StateScene {
  public:
-  explicit StateScene(const Case& what) : m_bullet(what.kind), m_isDeformable(m_bullet.isDeformable()) {
+  explicit StateScene(const Case& what)
+      : m_bullet(what.kind, what.story == Story::sleeping ? btVector3(0, 0, 0) : kEarthGravity),
+        m_isDeformable(m_bullet.isDeformable()) {
     m_wet = std::make_unique<wetcloth::WetClothWorld>(m_bullet.world());
     m_wet->setLog(nullptr);
     switch (what.story) {
       case Story::hanging: buildHanging(); break;
       case Story::onRigid: buildOnRigid(); break;
       case Story::clothOnCloth: buildClothOnCloth(); break;
+      case Story::sleeping: buildSleeping(); break;
     }
   }
   ~StateScene() {
@@ -179,6 +182,19 @@ class StateScene {
     cloth.add<wetcloth::WetFriction>();
     cloth.add<wetcloth::CollisionAudit>();
     this->cloth().add<wetcloth::Swelling>();
+  }
+
+  // A wet cloth dries without gravity: Bullet's deformable world puts it to sleep after two seconds, and it wakes when
+  // it weighs less.
+  void buildSleeping() {
+    wetcloth::WetCloth& cloth = add(levelPatch(3, 0.2));
+    addBulletSprings();
+    cloth.setSaturation(0.5);
+    wetcloth::Drying::Parameters drying;
+    drying.air = btVector3(5, 0, 0);
+    drying.relativeHumidity = 0.1;
+    cloth.add<wetcloth::Drying>(drying);
+    cloth.add<wetcloth::Diffusion>();
   }
 
   BulletWorld m_bullet;
