@@ -76,7 +76,7 @@ void Weather::blow(const btVector3& air) {
 
 void Weather::beforeStep() {
   if (m_scene.time() >= m_scene.limits.calmFrom && !m_air.fuzzyZero()) blow(btVector3(0, 0, 0));
-  if (m_scene.way() == Way::plainBullet) obvious::dragByAir(m_body, m_air, m_scene.dt());
+  if (m_scene.isPlainBullet()) obvious::blowSafely(m_body, m_air, m_scene.dt());
 }
 
 Script underWeather(CaseScene& scene, btSoftBody& body, wetcloth::WetCloth* cloth, Weather::Kind kind,

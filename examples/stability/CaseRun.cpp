@@ -9,11 +9,13 @@
 namespace stability {
 namespace {
 
+constexpr int kFewestSteps = 60;  // long enough to blow up at the longest step, too
+
 int stepsOf(const HardCase& hardCase, double dt, Effort effort) {
   const bool isShort = effort == Effort::quick && hardCase.quickDuration > 0;
   const double duration = isShort ? hardCase.quickDuration : hardCase.duration;
-  const int steps = static_cast<int>(std::ceil(duration / dt - 1e-9));
-  return std::clamp(steps, hardCase.fewestSteps, std::max(hardCase.fewestSteps, hardCase.mostSteps));
+  const int steps = hardCase.steps > 0 ? hardCase.steps : static_cast<int>(std::ceil(duration / dt - 1e-9));
+  return std::max(steps, kFewestSteps);
 }
 
 bool advance(CaseScene& scene, const Script& script, SceneMeter& sceneMeter, CaseMeter& meter) {
@@ -51,7 +53,7 @@ CaseMeter runCase(const HardCase& hardCase, World world, Way way, double dt, Eff
   return meter;
 }
 
-// Where Bullet alone goes wrong in the same way, nothing that we add can put it right.
+// Where Bullet alone, dry or wet, goes wrong in the same way, nothing that we add can put it right.
 CaseResult::Verdict CaseResult::verdict() const {
   if (ours.holds()) return Verdict::holds;
   if (!plainBullet) return Verdict::fails;
@@ -62,12 +64,18 @@ CaseResult::Verdict CaseResult::verdict() const {
   return Verdict::bulletFails;
 }
 
-CaseResult tryCase(const HardCase& hardCase, World world, double dt, Effort effort) {
+CaseResult tryCase(const HardCase& hardCase, World world, double dt, Effort effort, Comparisons comparisons) {
   CaseResult result{&hardCase, world, dt, runCase(hardCase, world, Way::ours, dt, effort), {}, {}};
-  if (!hardCase.compute && (hardCase.comparesAlways || !result.ours.holds())) {
+  const bool comparesAlways = hardCase.comparesAlways && comparisons == Comparisons::all;
+  if (!hardCase.compute && (comparesAlways || !result.ours.holds())) {
     result.plainBullet = runCase(hardCase, world, Way::plainBullet, dt, effort);
+    if (result.verdict() == CaseResult::Verdict::fails) {
+      result.plainBullet = runCase(hardCase, world, Way::plainBulletWet, dt, effort);
+    }
   }
-  if (!hardCase.obviousWay.empty()) result.obviousWay = runCase(hardCase, world, Way::obvious, dt, effort);
+  if (comparisons == Comparisons::all && !hardCase.obviousWay.empty()) {
+    result.obviousWay = runCase(hardCase, world, Way::obvious, dt, effort);
+  }
   return result;
 }
 

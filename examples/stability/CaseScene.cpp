@@ -24,6 +24,12 @@ runner::WorldKind kindOf(World world) {
 constexpr double kBendingShare = 0.01;  // of the stiffness of a link that bends
 constexpr double kFloorHalfExtent = 50;
 
+void makeHeavy(btSoftBody& body) {
+  const btScalar factor = btScalar(1 / (1 + wetcloth::Fabric::cotton().capacity));
+  for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_im *= factor;
+  body.updateLinkConstants();
+}
+
 }  // namespace
 
 CaseScene::CaseScene(World world, Way way, double dt, const btVector3& gravity)
@@ -140,6 +146,7 @@ void CaseScene::setGravity(const btVector3& gravity) {
 
 void CaseScene::begin() {
   for (Cloth& cloth : m_cloths) {
+    if (m_way == Way::plainBulletWet) makeHeavy(*cloth.body);
     double sum = 0;
     for (int k = 0; k < cloth.body->m_links.size(); ++k) {
       cloth.restLengths.push_back(double(cloth.body->m_links[k].m_rl));

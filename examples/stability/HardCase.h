@@ -27,8 +27,7 @@ struct HardCase {
   std::vector<World> worlds;
   double duration = 3;       ///< [s]
   double quickDuration = 0;  ///< of a quick run of the table; 0: no shorter [s]
-  int fewestSteps = 60;
-  int mostSteps = 1000000;
+  int steps = 0;             ///< instead, where it is they that count; 0: as many as the duration has, and 60 at least
   bool isWeightless = false;
   bool comparesAlways = true;  ///< plain Bullet is run, too; else only where ours does not hold
   /// Fills the scene, sets its limits and says what goes on in it. The same bodies for each Way.
@@ -37,7 +36,7 @@ struct HardCase {
   std::function<void(Way, CaseMeter&)> compute = {};
   std::string obviousWay = {};  ///< what one would write first, when it is run beside ours
   /// Steps that it is run at [s]; empty: all of the table.
-  std::vector<double> steps = {};
+  std::vector<double> stepSizes = {};
 };
 
 }  // namespace stability

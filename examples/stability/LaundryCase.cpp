@@ -72,7 +72,7 @@ HardCase laundry(const char* name, const char* about, double duration, std::vect
   hardCase.duration = duration;
   hardCase.quickDuration = 60;
   hardCase.comparesAlways = false;
-  hardCase.steps = std::move(steps);
+  hardCase.stepSizes = std::move(steps);
   hardCase.build = [](CaseScene& scene) {
     btSoftBody& body = scene.add(hangingCloth(5), 1000);
     auto day = std::make_shared<Laundry>(scene, body);

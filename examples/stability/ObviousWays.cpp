@@ -58,21 +58,28 @@ void pushByWind(btSoftBody& body, const btVector3& air, double dt) {
   }
 }
 
-void dragByAir(btSoftBody& body, const btVector3& air, double dt) {
-  std::vector<double> areas(static_cast<std::size_t>(body.m_nodes.size()), 0);
+void blowSafely(btSoftBody& body, const btVector3& air, double dt) {
+  const std::size_t count = static_cast<std::size_t>(body.m_nodes.size());
+  std::vector<btVector3> forces(count, btVector3(0, 0, 0));
+  std::vector<double> drags(count, 0);
   for (int f = 0; f < body.m_faces.size(); ++f) {
     btSoftBody::Node* const* corners = body.m_faces[f].m_n;
     const btVector3 twice = (corners[1]->m_x - corners[0]->m_x).cross(corners[2]->m_x - corners[0]->m_x);
-    for (int k = 0; k < 3; ++k)
-      areas[static_cast<std::size_t>(corners[k] - &body.m_nodes[0])] += double(twice.length()) / 6;
+    const btScalar length = twice.length();
+    if (!(length > 0)) continue;
+    const btVector3 normal = twice / length;
+    const btVector3 relative = air - (corners[0]->m_v + corners[1]->m_v + corners[2]->m_v) / 3;
+    const btScalar drag = btScalar(kHalfDensityAndDrag) * (length / 6) * btFabs(relative.dot(normal));
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t corner = static_cast<std::size_t>(corners[k] - &body.m_nodes[0]);
+      forces[corner] += normal * (drag * normal.dot(air - corners[k]->m_v));
+      drags[corner] += double(drag);
+    }
   }
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    btSoftBody::Node& node = body.m_nodes[i];
-    const btVector3 relative = air - node.m_v;
-    const double rate =
-        kHalfDensityAndDrag * areas[static_cast<std::size_t>(i)] * double(relative.length() * node.m_im);
-    // du/dt = -k u^2
-    const btVector3 change = relative * btScalar(rate * dt / (1 + rate * dt));
+  for (std::size_t i = 0; i < count; ++i) {
+    btSoftBody::Node& node = body.m_nodes[static_cast<int>(i)];
+    const double push = double(node.m_im) * dt;
+    const btVector3 change = forces[i] * btScalar(push / (1 + push * drags[i]));
     if (!std::isfinite(double(change.length2()))) continue;
     node.m_v += change;
     node.m_vn += change;

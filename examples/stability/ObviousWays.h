@@ -24,8 +24,8 @@ void writeMassesWithoutMomentum(btSoftBody& body, const std::vector<double>& dry
 /// @param air  velocity [m/s]; @param dt  [s]
 void pushByWind(btSoftBody& body, const btVector3& air, double dt);
 
-/// No obvious way, but what plain Bullet is given to bear in place of our wind: the same law without direction, each
-/// node by its share of the faces' area, exact in time, so that the air never pushes a node past its own velocity.
-void dragByAir(btSoftBody& body, const btVector3& air, double dt);
+/// No obvious way, but the wind that plain Bullet is given to bear in place of ours: the same law, each node's drag
+/// taken implicitly, so that the air never pushes a node past its own velocity.
+void blowSafely(btSoftBody& body, const btVector3& air, double dt);
 
 }  // namespace stability::obvious

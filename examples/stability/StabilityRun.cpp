@@ -16,7 +16,7 @@ namespace {
 std::vector<double> stepsOf(const HardCase& hardCase, const Selection& selection) {
   if (hardCase.compute) return {0};
   if (selection.step) return {*selection.step};
-  std::vector<double> steps = hardCase.steps.empty() ? stabilitySteps() : hardCase.steps;
+  std::vector<double> steps = hardCase.stepSizes.empty() ? stabilitySteps() : hardCase.stepSizes;
   if (selection.effort == Effort::full) return steps;
   const auto isLeftOut = [](double step) {
     return std::find(quickSteps().begin(), quickSteps().end(), step) == quickSteps().end();

@@ -17,9 +17,10 @@ enum class World {
 
 /// Who moves the cloth.
 enum class Way {
-  ours,         ///< Bullet and this library
-  plainBullet,  ///< Bullet alone: the same bodies and whatever moves pins and bodies, no effect of ours
-  obvious       ///< Bullet, and what one would write first
+  ours,            ///< Bullet and this library
+  plainBullet,     ///< Bullet alone: the same bodies and whatever moves pins and bodies, no effect of ours
+  plainBulletWet,  ///< the same with the masses of saturated cotton from the beginning
+  obvious          ///< Bullet, and what one would write first
 };
 
 inline const std::vector<std::pair<std::string, World>>& stabilityWorlds() {
