@@ -79,13 +79,13 @@ MassSpringReference HangingCloth::reference() const {
   std::vector<MassSpringReference::Point> points;
   std::vector<MassSpringReference::Spring> springs;
   const double width = length / (side - 1);
-  // A node has a third of its triangles; their diagonals all run one way, from (i + 1, j) to (i, j + 1).
+  // A node has a third of its triangles; their diagonals all run one way, from (i, j) to (i + 1, j + 1).
   const auto triangles = [](int i, int j) {
     int count = 0;
-    if (i < side - 1 && j < side - 1) count += 1;
-    if (i > 0 && j < side - 1) count += 2;
-    if (i < side - 1 && j > 0) count += 2;
-    if (i > 0 && j > 0) count += 1;
+    if (i < side - 1 && j < side - 1) count += 2;
+    if (i > 0 && j < side - 1) count += 1;
+    if (i < side - 1 && j > 0) count += 1;
+    if (i > 0 && j > 0) count += 2;
     return count;
   };
   for (int j = 0; j < side; ++j) {

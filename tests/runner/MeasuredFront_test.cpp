@@ -52,6 +52,8 @@ TEST(MeasuredFront, NothingCheaperIsGoodEnough) {
       for (const MeasuredPoint& point : runner::measuredPoints()) {
         if (point.method != studies.front().method || point.study != "cloth_period" || point.time >= choice.time)
           continue;
+        // Of the choice itself the slower of its studies counts.
+        if (point.substep == choice.substep && point.iterations == choice.iterations) continue;
         // A cheaper stepping fails in one of the studies.
         bool fails = point.error > error;
         for (const MeasuredPoint& other : runner::measuredPoints()) {
@@ -110,7 +112,9 @@ TEST(MeasuredFront, QualitiesAreOrdered) {
   for (const auto& [name, quality] : runner::qualityNames()) {
     const SteppingChoice choice = runner::steppingOf(sceneNamed("flag_wind_100"), quality);
     EXPECT_GE(choice.time, before) << name;
-    if (quality != runner::Quality::reference) EXPECT_LE(choice.largestError(), runner::allowedError(quality)) << name;
+    if (quality != runner::Quality::reference) {
+      EXPECT_LE(choice.largestError(), runner::allowedError(quality)) << name;
+    }
     before = choice.time;
   }
 }
