@@ -52,7 +52,7 @@ double stiffnessFor(double mass, int columns) { return std::max(1000., mass * 9.
 
 Weather::Weather(CaseScene& scene, btSoftBody& body, wetcloth::WetCloth* cloth, Kind kind, const btVector3& air,
                  double skinFriction)
-    : m_scene(scene), m_body(body), m_air(air) {
+    : m_scene(scene), m_body(body), m_air(air), m_skinFriction(skinFriction) {
   if (cloth == nullptr) return;
   if (kind == Kind::rain) {
     wetcloth::Absorption::Parameters rain;
@@ -76,7 +76,7 @@ void Weather::blow(const btVector3& air) {
 
 void Weather::beforeStep() {
   if (m_scene.time() >= m_scene.limits.calmFrom && !m_air.fuzzyZero()) blow(btVector3(0, 0, 0));
-  if (m_scene.isPlainBullet()) obvious::blowSafely(m_body, m_air, m_scene.dt());
+  if (m_scene.isPlainBullet()) obvious::blowSafely(m_body, m_air, m_skinFriction, m_scene.dt());
 }
 
 Script underWeather(CaseScene& scene, btSoftBody& body, wetcloth::WetCloth* cloth, Weather::Kind kind,

@@ -54,6 +54,7 @@ class Weather {
   btSoftBody& m_body;
   wetcloth::Wind* m_wind = nullptr;
   btVector3 m_air;
+  double m_skinFriction;
 };
 
 /// Nothing but the weather goes on.

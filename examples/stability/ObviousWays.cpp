@@ -6,7 +6,8 @@
 namespace stability::obvious {
 namespace {
 
-constexpr double kHalfDensityAndDrag = 0.5 * 1.225 * 1.2;  // rho C_d / 2 of Wind's defaults [kg/m^3]
+constexpr double kHalfDensity = 0.5 * 1.225;                // rho / 2 of Wind's defaults [kg/m^3]
+constexpr double kHalfDensityAndDrag = kHalfDensity * 1.2;  // rho C_d / 2
 
 }  // namespace
 
@@ -58,7 +59,7 @@ void pushByWind(btSoftBody& body, const btVector3& air, double dt) {
   }
 }
 
-void blowSafely(btSoftBody& body, const btVector3& air, double dt) {
+void blowSafely(btSoftBody& body, const btVector3& air, double skinFriction, double dt) {
   const std::size_t count = static_cast<std::size_t>(body.m_nodes.size());
   std::vector<btVector3> forces(count, btVector3(0, 0, 0));
   std::vector<double> drags(count, 0);
@@ -70,10 +71,14 @@ void blowSafely(btSoftBody& body, const btVector3& air, double dt) {
     const btVector3 normal = twice / length;
     const btVector3 relative = air - (corners[0]->m_v + corners[1]->m_v + corners[2]->m_v) / 3;
     const btScalar drag = btScalar(kHalfDensityAndDrag) * (length / 6) * btFabs(relative.dot(normal));
+    const btScalar slip = (relative - normal * relative.dot(normal)).length();
+    const btScalar friction = btScalar(kHalfDensity * skinFriction) * (length / 6) * slip;
     for (int k = 0; k < 3; ++k) {
       const std::size_t corner = static_cast<std::size_t>(corners[k] - &body.m_nodes[0]);
-      forces[corner] += normal * (drag * normal.dot(air - corners[k]->m_v));
-      drags[corner] += double(drag);
+      const btVector3 towards = air - corners[k]->m_v;
+      const btScalar along = normal.dot(towards);
+      forces[corner] += normal * (drag * along) + (towards - normal * along) * friction;
+      drags[corner] += double(drag + friction);
     }
   }
   for (std::size_t i = 0; i < count; ++i) {

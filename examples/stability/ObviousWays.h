@@ -26,6 +26,7 @@ void pushByWind(btSoftBody& body, const btVector3& air, double dt);
 
 /// No obvious way, but the wind that plain Bullet is given to bear in place of ours: the same law, each node's drag
 /// taken implicitly, so that the air never pushes a node past its own velocity.
-void blowSafely(btSoftBody& body, const btVector3& air, double dt);
+/// @param skinFriction  C_f along the surface [-]
+void blowSafely(btSoftBody& body, const btVector3& air, double skinFriction, double dt);
 
 }  // namespace stability::obvious
