@@ -1,0 +1,46 @@
+#pragma once
+
+// What is fuzzed, one function for each reader of bytes from outside; by libFuzzer (./dev fuzz), and with the kept
+// seeds by the tests.
+
+#include "examples/runner/Errors.h"
+#include "examples/runner/ObjReader.h"
+#include "examples/runner/QueryFile.h"
+#include "examples/runner/SceneReader.h"
+#include "tests/fuzz/Input.h"
+#include "tests/fuzz/SmallWorld.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace fuzz {
+
+inline void scene(const std::string& bytes) {
+  const Input input(bytes);
+  takesOrRefuses<runner::InputError>([&] { runner::readScene(input.path()); });
+}
+
+inline void obj(const std::string& bytes) {
+  const Input input(bytes);
+  takesOrRefuses<std::invalid_argument>([&] { runner::readObj(input.path()); });
+}
+
+inline void ccd(const std::string& bytes) {
+  const Input input(bytes);
+  takesOrRefuses<runner::InputError>([&] { runner::readQueries(input.path()); });
+}
+
+/// The first byte chooses: an odd one, and the rest is a whole stream; an even one, and it is the state within a
+/// stream whose envelope is right, so that the hash does not keep everything out. Whatever came of it, the world can
+/// be brought back to what it was.
+inline void state(const std::string& bytes) {
+  if (bytes.empty()) return;
+  static SmallWorld world;
+  const bool isStream = bytes[0] % 2 != 0;
+  const std::string stream = isStream ? bytes.substr(1) : world.wrapped(bytes.substr(1));
+  takesOrRefuses<wetcloth::StateError>([&] { world.restore(stream); });
+  world.restore(world.start());
+  if (world.saved() != world.start()) throw std::logic_error("the world is not what it was");
+}
+
+}  // namespace fuzz

@@ -1,0 +1,171 @@
+// Runs every scene of examples/scenes for a moment and compares the hash of what it came to with the stored one:
+//   state-hashes-PRECISION STORED.json SCENE.json... [--write]
+// --write stores the hashes instead. Exit status 0: as stored; 1: not so; 77: not so, but neither are the compiler and
+// the C library those of the stored ones, and so there is nothing to compare.
+
+#include "examples/runner/SceneReader.h"
+#include "examples/runner/SceneWorld.h"
+#include "examples/runner/StateHash.h"
+
+#include "bullet_wetcloth/state/StateHash.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#ifdef __GLIBC__
+#include <gnu/libc-version.h>
+#endif
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSteps = 24;
+constexpr int kSkipped = 77;
+
+std::string hexadecimal(std::uint64_t number) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
+  return text;
+}
+
+/// The C library chooses between versions of its functions by the processor, and they may differ in the last digit.
+std::string hashOfMathFunctions() {
+  wetcloth::StateHash hash;
+  for (int i = 1; i < 2000; ++i) {
+    const double x = 0.0137 * i;
+    for (const double value : {std::exp(-x), std::expm1(-x), std::pow(x, 1.7), std::sin(x), std::cos(x), std::log(x)}) {
+      hash.add(&value, sizeof value);
+    }
+    const float y = static_cast<float>(x);
+    for (const float value : {std::exp(-y), std::pow(y, 1.7f), std::sin(y), std::cos(y)}) {
+      hash.add(&value, sizeof value);
+    }
+  }
+  return hexadecimal(hash.value());
+}
+
+Json toolchain() {
+  Json json;
+  json["bullet"] = btGetVersion();
+#ifdef __clang__
+  json["compiler"] = std::string("clang ") + __clang_version__;
+#elif defined(__VERSION__)
+  json["compiler"] = std::string("gcc ") + __VERSION__;
+#endif
+#ifdef __GLIBC__
+  json["libc"] = std::string("glibc ") + gnu_get_libc_version();
+#endif
+  json["math_functions"] = hashOfMathFunctions();
+  return json;
+}
+
+std::string run(const runner::Scene& scene) {
+  runner::SceneWorld world(scene);
+  for (int step = 0; step < kSteps; ++step) world.step();
+  return runner::stateHash(world);
+}
+
+/// Bullet shuffles contacts of two soft bodies there by random numbers that go on from run to run in a process.
+bool isSameEachTime(const runner::Scene& scene) {
+  if (scene.world != runner::WorldKind::deformable) return true;
+  bool meetsCloth = scene.cloths.size() > 1;
+  for (const runner::ClothScene& cloth : scene.cloths) meetsCloth = meetsCloth || cloth.selfCollision;
+  return !meetsCloth;
+}
+
+struct Hashes {
+  Json found;
+  bool areSameTwice = true;
+};
+
+Hashes runAll(const std::vector<std::string>& files) {
+  Hashes hashes;
+  for (const std::string& file : files) {
+    const runner::Scene scene = runner::readScene(file);
+    const std::string name = std::filesystem::path(file).stem().string();
+    const std::string hash = run(scene);
+    hashes.found[name] = hash;
+    if (!isSameEachTime(scene) || run(scene) == hash) continue;
+    std::printf("%s: run twice in one process, it came to two states\n", name.c_str());
+    hashes.areSameTwice = false;
+  }
+  return hashes;
+}
+
+Json readStored(const std::string& path) {
+  std::ifstream stream(path);
+  return stream ? Json::parse(stream) : Json::object();
+}
+
+void write(const std::string& path, Json stored, const std::string& precision, const Json& found) {
+  stored["steps"] = kSteps;
+  stored["toolchain"] = toolchain();
+  stored["hashes"][precision] = found;
+  std::ofstream(path) << stored.dump(2) << '\n';
+}
+
+/// Whether all are as stored.
+bool compare(const Json& stored, const Json& found) {
+  bool areSame = true;
+  for (const auto& [name, hash] : found.items()) {
+    const std::string wanted = stored.value(name, "none");
+    if (wanted == hash) continue;
+    std::printf("%s: %s, stored is %s\n", name.c_str(), hash.get<std::string>().c_str(), wanted.c_str());
+    areSame = false;
+  }
+  return areSame;
+}
+
+int check(const std::string& path, const std::string& precision, const Hashes& hashes, const std::string& program) {
+  const Json stored = readStored(path);
+  if (compare(stored.at("hashes").at(precision), hashes.found)) {
+    std::printf("%zu scenes of %d steps are as stored\n", hashes.found.size(), kSteps);
+    return hashes.areSameTwice ? 0 : 1;
+  }
+  const Json here = toolchain();
+  if (stored.at("toolchain") != here) {
+    std::printf("They were stored with %s; here it is %s: that may be all (docs/determinism.md).\n",
+                stored.at("toolchain").dump().c_str(), here.dump().c_str());
+    return hashes.areSameTwice ? kSkipped : 1;
+  }
+  std::printf("If results were meant to change, store the new hashes: ./dev hashes --write (it runs %s).\n",
+              program.c_str());
+  return 1;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  std::vector<std::string> files;
+  bool writes = false;
+  for (int i = 2; i < count; ++i) {
+    const std::string word = arguments[i];
+    if (word == "--write") {
+      writes = true;
+    } else {
+      files.push_back(word);
+    }
+  }
+  if (count < 3 || files.empty()) {
+    std::fprintf(stderr, "usage: %s STORED.json SCENE.json... [--write]\n", arguments[0]);
+    return 2;
+  }
+  try {
+    const std::string precision = runner::nameOf(runner::ownPrecision);
+    const Hashes hashes = runAll(files);
+    if (!writes) return check(arguments[1], precision, hashes, arguments[0]);
+    write(arguments[1], readStored(arguments[1]), precision, hashes.found);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
