@@ -1,6 +1,7 @@
 #include "Checkpoint.h"
 
 #include "Errors.h"
+#include "Quality.h"
 #include "StagedOutput.h"
 #include "TextFile.h"
 
@@ -75,7 +76,7 @@ std::string contentOf(const std::string& file) {
 
 nlohmann::ordered_json runIdentity(const RunOptions& options, const Scene& scene, int steps) {
   return {{"precision", nameOf(ownPrecision)},
-          {"quality", scene.quality},
+          {"quality", qualityOf(scene)},
           {"substeps", scene.substeps},
           {"iterations", scene.iterations},
           {"steps", steps},

@@ -2,6 +2,8 @@
 
 namespace runner {
 
+std::string qualityOf(const Scene& scene) { return scene.quality.empty() ? "scene" : scene.quality; }
+
 const std::vector<std::pair<std::string, Quality>>& qualityNames() {
   static const std::vector<std::pair<std::string, Quality>> names{{"draft", Quality::draft},
                                                                   {"realtime", Quality::realtime},

@@ -8,6 +8,9 @@
 
 namespace runner {
 
+/// How a scene's stepping was chosen, for people: the name of a quality, or "scene" where it decides by itself.
+std::string qualityOf(const Scene& scene);
+
 /// How far a scene may be off: the largest of the measured errors that bear on it.
 enum class Quality { draft, realtime, accurate, reference };
 

@@ -1,6 +1,7 @@
 #include "RunReport.h"
 
 #include "NearestWord.h"
+#include "Quality.h"
 #include "StateHash.h"
 
 #include <algorithm>
@@ -25,8 +26,6 @@ std::optional<wetcloth::AuditTotals> sumOf(const std::vector<wetcloth::Collision
   }
   return sum;
 }
-
-std::string qualityOf(const Scene& scene) { return scene.quality.empty() ? "scene" : scene.quality; }
 
 /// To a tenth of a gram, and no "-0.0" for what rounding has left below nothing.
 double grams(double kilograms) {

@@ -88,7 +88,7 @@ TEST_F(Checkpoint, OfAnotherRunIsRefused) {
     words.insert(words.end(), more.begin(), more.end());
     return runWetcloth(words);
   };
-  expectRefusal(resume({"--quality", "draft"}), {"--resume", file(), "quality \"realtime\"", "\"draft\""});
+  expectRefusal(resume({"--quality", "draft"}), {"--resume", file(), "quality \"scene\"", "\"draft\""});
   if (std::filesystem::exists(std::string(WETCLOTH_COMMAND) + "-float64")) {
     expectRefusal(resume({"--precision", "float64"}), {"--resume", file(), "precision \"float32\"", "\"float64\""});
   }
