@@ -46,7 +46,9 @@ CaseMeter runCase(const HardCase& hardCase, World world, Way way, double dt, Eff
   scene.begin();
   SceneMeter sceneMeter(scene, meter);
   for (int i = 0; i < steps; ++i) {
-    if (!advance(scene, script, sceneMeter, meter)) return meter;
+    if (advance(scene, script, sceneMeter, meter)) continue;
+    sceneMeter.giveUp();
+    return meter;
   }
   sceneMeter.finish();
   if (script.finish) script.finish(meter);

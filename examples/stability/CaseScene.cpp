@@ -84,6 +84,7 @@ wetcloth::WetCloth* CaseScene::wet(btSoftBody& body, const wetcloth::Fabric& fab
     wetcloth::HookeSprings::Parameters springs;
     springs.stiffness = cloth.stiffness;
     springs.bendingStiffness = kBendingShare * cloth.stiffness;
+    springs.iterations = springIterations;
     cloth.wet->add<wetcloth::HookeSprings>(springs);
   }
   return cloth.wet;

@@ -43,6 +43,7 @@ class CaseScene {
   void setDuration(double duration) { m_duration = duration; }
   double gravity() const { return m_gravity; }  ///< its size at the beginning [m/s^2]
   Limits limits;
+  int springIterations = 4;  ///< of HookeSprings that wet() adds: their own default
 
   // --- what a case builds -----------------------------------------------------------------------------------
 

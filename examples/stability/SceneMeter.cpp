@@ -13,6 +13,7 @@ constexpr double kLedger = 1e-12;
 constexpr double kOverfull = 1e-12;
 constexpr double kFinalStretch = 0.1;
 constexpr double kRestShare = 0.01;
+constexpr double kBlownUp = 1e4;
 constexpr double kShortLink = 0.1;  // of the mean rest length: shorter links are measured against this
 
 }  // namespace
@@ -81,8 +82,15 @@ bool SceneMeter::observe() {
     observeWater(cloth);
   }
   const double speed = topSpeed();
-  m_meter.compare("energy", m_kineticEnergy, m_mass * speed * speed / 2);
-  return true;
+  const double allowed = m_mass * speed * speed / 2;
+  m_meter.compare("energy", m_kineticEnergy, allowed);
+  return m_kineticEnergy <= kBlownUp * allowed;
+}
+
+void SceneMeter::giveUp() {
+  if (!std::isfinite(m_scene.limits.calmFrom)) return;
+  m_meter.compare("rest", 1, 0);
+  m_meter.compare("final stretch", 1, 0);
 }
 
 void SceneMeter::finish() {

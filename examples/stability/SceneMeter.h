@@ -23,10 +23,13 @@ class SceneMeter {
  public:
   SceneMeter(CaseScene& scene, CaseMeter& meter) : m_scene(scene), m_meter(meter) {}
 
-  /// After each step. False when a number is not finite: then the run is over.
+  /// After each step. False when the run is over: a number is not finite, or kinetic energy is 10^4 times what is
+  /// allowed. From much more than that Bullet's own cubic solver never returns (docs/bullet_notes.md).
   bool observe();
   /// After the last step.
   void finish();
+  /// Instead, when the run was over before: it never came to rest.
+  void giveUp();
 
  private:
   double topSpeed() const;

@@ -33,10 +33,11 @@ struct WashingLine {
 };
 
 HardCase onTheLine(std::string name, std::string about, std::function<void(CaseScene&, WashingLine&, Script&)> disturb,
-                   double longestStep = 1) {
+                   double longestStep = 1, int springIterations = 4) {
   HardCase hardCase = everywhere(std::move(name), "time", std::move(about));
   hardCase.duration = 10;
   hardCase.build = [=](CaseScene& scene) {
+    scene.springIterations = springIterations;
     auto line = std::make_shared<WashingLine>(scene);
     Script script;
     disturb(scene, *line, script);
@@ -62,7 +63,7 @@ HardCase varyingSteps() {
           scene.bullet().stepSimulation(btScalar(step), 0);
         };
       },
-      3);
+      3, 16);
 }
 
 HardCase pauses() {
