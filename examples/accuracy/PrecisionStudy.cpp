@@ -17,6 +17,14 @@ const nlohmann::json* mostAccurate(const nlohmann::json& study) {
   return best;
 }
 
+/// The point of the same setting; null when there is none that stayed finite.
+const nlohmann::json* sameSetting(const nlohmann::json& study, const nlohmann::json& point) {
+  for (const nlohmann::json& other : study.at("points")) {
+    if (other.at("setting") == point.at("setting") && !other.at("error").is_null()) return &other;
+  }
+  return nullptr;
+}
+
 Point pointOf(const nlohmann::json& study, const nlohmann::json& best, const std::string& precision) {
   Point point;
   point.method = study.at("name");
@@ -54,15 +62,17 @@ std::string adviceOn(const Study& study) {
 
 Study comparePrecisions(const nlohmann::json& float32, const nlohmann::json& float64) {
   Study study;
-  study.measure = {"precision", "float32 against float64", "smallest error that the study reaches",
+  study.measure = {"precision", "float32 against float64",
+                   "smallest error that the study reaches in float32, and that of the same setting in float64",
                    "that of each study"};
   study.knob = "precision";
   study.timed = "as in each study, at its most accurate setting";
   for (const nlohmann::json& one : float32) {
     for (const nlohmann::json& other : float64) {
+      if (other.at("name") != one.at("name")) continue;
       const nlohmann::json* single = mostAccurate(one);
-      const nlohmann::json* twice = mostAccurate(other);
-      if (other.at("name") != one.at("name") || single == nullptr || twice == nullptr) continue;
+      const nlohmann::json* twice = single == nullptr ? nullptr : sameSetting(other, *single);
+      if (twice == nullptr) continue;
       Point a = pointOf(one, *single, "float32");
       Point b = pointOf(other, *twice, "float64");
       markFront(a, b);

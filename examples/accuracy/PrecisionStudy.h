@@ -8,7 +8,7 @@
 
 namespace accuracy {
 
-/// The same studies in float32 and in float64: of each the smallest error that is reached in either, and its time.
+/// The same studies in float32 and in float64: of each the most accurate setting in float32, and the same in float64.
 /// @param float32, float64  as jsonOf() has them, of the same quick studies
 Study comparePrecisions(const nlohmann::json& float32, const nlohmann::json& float64);
 

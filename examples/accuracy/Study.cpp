@@ -27,9 +27,8 @@ double median(std::vector<double> values) {
 /// In turns, so that whatever else the machine does slows all settings alike.
 std::vector<Runs> runInTurns(const Plan& plan, const Effort& effort, const TellProgress& tell) {
   std::vector<Runs> runs(plan.settings.size());
-  const int repeats = effort.isQuick ? 1 : 3;
   double done = 0;
-  for (int repeat = 0; repeat < repeats; ++repeat) {
+  for (int repeat = 0; repeat < effort.repeats; ++repeat) {
     for (std::size_t i = 0; i < plan.settings.size(); ++i) {
       if (runs[i].seconds.empty() || runs[i].seconds.front() < longRun) {
         Outcome outcome = plan.settings[i].run();
@@ -38,7 +37,7 @@ std::vector<Runs> runInTurns(const Plan& plan, const Effort& effort, const TellP
         runs[i].seconds.push_back(outcome.seconds);
       }
       done += 1;
-      tell(done / (static_cast<double>(plan.settings.size()) * repeats));
+      tell(done / (static_cast<double>(plan.settings.size()) * effort.repeats));
     }
   }
   return runs;

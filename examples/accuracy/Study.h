@@ -9,7 +9,8 @@ namespace accuracy {
 
 /// How much work a study may be.
 struct Effort {
-  bool isQuick = false;  ///< fewer and coarser settings, one run each: for a first look and for tests
+  bool isQuick = false;  ///< fewer and coarser settings: for a first look and for tests
+  int repeats = 3;       ///< of each setting, whose median time counts
 };
 
 /// What one run of a setting came to.
@@ -89,7 +90,7 @@ struct Study {
 /// Told how far a group of studies is, [0, 1].
 using TellProgress = std::function<void(double fraction)>;
 
-/// Runs all settings in turns, three times (once when quick), and makes a study of each measure. Times are medians.
+/// Runs all settings in turns, as often as the effort says, and makes a study of each measure. Times are medians.
 std::vector<Study> carryOut(const Plan& plan, const Effort& effort, const TellProgress& tell);
 
 }  // namespace accuracy

@@ -43,7 +43,7 @@ nlohmann::ordered_json jsonOf(const Point& point) {
   return json;
 }
 
-/// Rows of the front come first, from the fastest to the most accurate.
+/// From the fastest to the most accurate.
 std::vector<Point> frontOf(const Study& study) {
   std::vector<Point> front;
   for (const Point& point : study.points) {
@@ -98,13 +98,15 @@ std::string textOf(const Study& study) {
 }
 
 std::string markdownOf(const Study& study, const std::string& picture) {
+  // What is no curve is short, and is read as a whole.
+  const bool isTable = study.knob == "none" || study.knob == "precision";
   std::string text = "### " + study.measure.name + ": " + study.measure.title + "\n\n";
   if (!picture.empty()) text += "![" + study.measure.title + "](" + picture + ")\n\n";
-  text +=
-      "Error: " + study.measure.error + ". Against: " + referenceText(study.measure) + ". Timed: " + study.timed +
-      ".\n\n| on the front | error | ns per node and step | us per node and simulated second |\n|---|---|---|---|\n";
+  text += "Error: " + study.measure.error + ". Against: " + referenceText(study.measure) + ". Timed: " + study.timed +
+          ".\n\n| " + (isTable ? "setting" : "on the front") +
+          " | error | ns per node and step | us per node and simulated second |\n|---|---|---|---|\n";
   char line[320];
-  for (const Point& point : frontOf(study)) {
+  for (const Point& point : isTable ? study.points : frontOf(study)) {
     std::snprintf(line, sizeof line, "| %s | %s | %.1f | %.3g |\n", point.name().c_str(),
                   errorText(point.error).c_str(), point.nanosecondsPerNodeStep, point.microsecondsPerNodeSecond);
     text += line;

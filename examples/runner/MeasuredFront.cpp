@@ -118,6 +118,8 @@ SteppingChoice cheapestStepping(const std::vector<StudyOfScene>& studies, double
   return best;
 }
 
+SteppingChoice steppingWithin(const Scene& scene, double error) { return cheapestStepping(studiesOf(scene), error); }
+
 void apply(const SteppingChoice& choice, Scene& scene) {
   // Not one more for a step that is a whole number of them but for rounding.
   scene.substeps = std::max(1, static_cast<int>(std::ceil(scene.step / choice.substep - 1e-6)));

@@ -55,6 +55,9 @@ struct SteppingChoice {
 SteppingChoice cheapestStepping(const std::vector<StudyOfScene>& studies, double error,
                                 const std::vector<MeasuredPoint>& points = measuredPoints());
 
+/// The same of the studies that bear on a scene.
+SteppingChoice steppingWithin(const Scene& scene, double error);
+
 /// Steps the scene in that way: as many substeps as its step needs.
 void apply(const SteppingChoice& choice, Scene& scene);
 

@@ -22,8 +22,4 @@ double allowedError(Quality quality) {
   return 0;
 }
 
-SteppingChoice steppingOf(const Scene& scene, Quality quality) {
-  return cheapestStepping(studiesOf(scene), allowedError(quality));
-}
-
 }  // namespace runner

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "MeasuredFront.h"
+#include "Scene.h"
 
 #include <string>
 #include <utility>
@@ -20,8 +20,5 @@ const std::vector<std::pair<std::string, Quality>>& qualityNames();
 /// The error that a quality allows [-]: 10 %, 3 %, 1 %; of `reference` 0, which nothing reaches: the most accurate
 /// stepping that was measured.
 double allowedError(Quality quality);
-
-/// The stepping of a scene: the cheapest that was measured within the allowed error, in all studies that bear on it.
-SteppingChoice steppingOf(const Scene& scene, Quality quality);
 
 }  // namespace runner

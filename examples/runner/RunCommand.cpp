@@ -96,9 +96,9 @@ class Run {
 std::optional<SteppingChoice> chooseStepping(const RunOptions& options, Scene& scene) {
   if (!options.errorBudget) {
     if (scene.quality.empty()) return std::nullopt;
-    return steppingOf(scene, valueOf(qualityNames(), scene.quality));
+    return steppingWithin(scene, allowedError(valueOf(qualityNames(), scene.quality)));
   }
-  const SteppingChoice choice = cheapestStepping(studiesOf(scene), *options.errorBudget);
+  const SteppingChoice choice = steppingWithin(scene, *options.errorBudget);
   if (!(choice.largestError() <= *options.errorBudget)) {
     char text[240];
     std::snprintf(text, sizeof text,

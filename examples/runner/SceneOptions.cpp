@@ -1,6 +1,7 @@
 #include "SceneOptions.h"
 
 #include "Errors.h"
+#include "MeasuredFront.h"
 #include "Quality.h"
 #include "SceneReader.h"
 #include "Sibling.h"
@@ -29,7 +30,7 @@ Scene readScene(const SceneOptions& options, char** arguments) {
   }
   if (options.duration) scene.duration = *options.duration;
   if (!options.quality.empty()) scene.quality = options.quality;
-  if (!scene.quality.empty()) apply(steppingOf(scene, valueOf(qualityNames(), scene.quality)), scene);
+  if (!scene.quality.empty()) apply(steppingWithin(scene, allowedError(valueOf(qualityNames(), scene.quality))), scene);
   return scene;
 }
 

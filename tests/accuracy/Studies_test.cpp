@@ -20,7 +20,7 @@ using accuracy::Study;
 
 std::vector<Study> quick(accuracy::CarryOutStudies carryOut) {
   double last = 0;
-  std::vector<Study> studies = carryOut({true}, [&](double fraction) {
+  std::vector<Study> studies = carryOut({true, 1}, [&](double fraction) {
     EXPECT_GE(fraction, last);
     EXPECT_LE(fraction, 1 + 1e-12);
     last = fraction;
@@ -151,7 +151,11 @@ TEST(Studies, AnErrorThatIsNoNumberIsNullInJson) {
 
 TEST(Studies, PrecisionsAreComparedStudyByStudy) {
   const auto study = [](const char* name, double error, double time) {
-    nlohmann::json point{{"compared", true}, {"error", error}, {"ns_per_node_step", 1}, {"us_per_node_second", time}};
+    nlohmann::json point{{"setting", "one"},
+                         {"compared", true},
+                         {"error", error},
+                         {"ns_per_node_step", 1},
+                         {"us_per_node_second", time}};
     return nlohmann::json{{"name", name}, {"points", {point}}};
   };
   const Study both = accuracy::comparePrecisions({study("same", 0.1, 1), study("better", 1e-6, 1)},
