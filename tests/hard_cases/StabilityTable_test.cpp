@@ -128,7 +128,7 @@ TEST(StabilityCases, AnHourOfLaundry) {
 struct ObviousWay {
   const char* hardCase;
   const char* name;
-  const char* bound;  ///< that it fails
+  const char* bound;  ///< that it fails; empty: any
 };
 
 class StabilityOfObviousWays : public testing::TestWithParam<ObviousWay> {};
@@ -139,12 +139,16 @@ TEST_P(StabilityOfObviousWays, FailsWhereOursHolds) {
   EXPECT_EQ(hardCase.obviousWay, GetParam().name);
   EXPECT_TRUE(stability::runCase(hardCase, world, stability::Way::ours, kStabilityStep).holds());
   const stability::CaseMeter obvious = stability::runCase(hardCase, world, stability::Way::obvious, kStabilityStep);
-  EXPECT_GT(obvious.marginOf(GetParam().bound), 1);
+  EXPECT_FALSE(obvious.holds());
+  if (GetParam().bound[0] != '\0') {
+    EXPECT_GT(obvious.marginOf(GetParam().bound), 1);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(, StabilityOfObviousWays,
                          testing::Values(ObviousWay{"wet_in_one_step", "setMass in each step", "final stretch"},
-                                         ObviousWay{"dry_in_one_step", "stale link constants", "finite"},
+                                         // No number in float32, too much energy in float64.
+                                         ObviousWay{"dry_in_one_step", "stale link constants", ""},
                                          ObviousWay{"soaks_in_flight", "mass without momentum", "momentum"},
                                          ObviousWay{"wind_50", "explicit wind", "speed"}),
                          [](const auto& test) { return std::string(test.param.hardCase); });
