@@ -2,7 +2,7 @@
 
 #include "../runner/Quality.h"
 #include "Advice.h"
-#include "Specimen.h"
+#include "Study.h"
 
 #include <cstdio>
 

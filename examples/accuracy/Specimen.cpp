@@ -1,8 +1,5 @@
 #include "Specimen.h"
 
-#include <cmath>
-#include <cstdio>
-
 namespace accuracy {
 
 Specimen::Specimen(const Settings& settings)
@@ -18,16 +15,6 @@ wetcloth::ClothPatch levelSquare(double side, int nodes, double arealDensity) {
   patch.edgeV = btVector3(0, 0, btScalar(side));
   patch.arealDensity = arealDensity;
   return patch;
-}
-
-std::string stepLabel(double dt) {
-  char text[32];
-  if (dt < 1) {
-    std::snprintf(text, sizeof text, "1/%.4g s", 1 / dt);
-  } else {
-    std::snprintf(text, sizeof text, "%.4g s", dt);
-  }
-  return text;
 }
 
 }  // namespace accuracy

@@ -40,7 +40,4 @@ class Specimen {
 /// A square patch in the plane y = 0, its corner at the origin. @param side [m]; @param nodes along a side
 wetcloth::ClothPatch levelSquare(double side, int nodes, double arealDensity = 0.150);
 
-/// "1/60 s"
-std::string stepLabel(double dt);
-
 }  // namespace accuracy

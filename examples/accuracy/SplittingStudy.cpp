@@ -145,18 +145,12 @@ Outcome splitByTheLibrary(bool strang, double dt) {
 
 void addCurve(Plan& plan, const std::string& method, bool isCompared, const std::vector<double>& steps,
               const std::function<Outcome(double dt)>& run) {
-  for (const double dt : steps) {
-    Setting setting;
-    setting.method = method;
-    setting.label = stepLabel(dt);
-    setting.knob = dt;
-    setting.nodes = isCompared ? 2 * chain : chain;
-    setting.steps = duration / dt;
-    setting.simulatedSeconds = duration;
-    setting.isCompared = isCompared;
-    setting.run = [run, dt] { return run(dt); };
-    plan.settings.push_back(std::move(setting));
-  }
+  Setting curve;
+  curve.method = method;
+  curve.nodes = isCompared ? 2 * chain : chain;
+  curve.simulatedSeconds = duration;
+  curve.isCompared = isCompared;
+  addSteps(plan, curve, steps, run);
 }
 
 }  // namespace

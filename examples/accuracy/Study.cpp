@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdio>
+#include <utility>
 
 namespace accuracy {
 namespace {
@@ -65,6 +67,28 @@ std::vector<std::string> methodsOf(const std::vector<Point>& points) {
     if (std::find(methods.begin(), methods.end(), point.method) == methods.end()) methods.push_back(point.method);
   }
   return methods;
+}
+
+std::string stepLabel(double dt) {
+  char text[32];
+  if (dt < 1) {
+    std::snprintf(text, sizeof text, "1/%.4g s", 1 / dt);
+  } else {
+    std::snprintf(text, sizeof text, "%.4g s", dt);
+  }
+  return text;
+}
+
+void addSteps(Plan& plan, const Setting& curve, const std::vector<double>& steps,
+              const std::function<Outcome(double dt)>& run) {
+  for (const double dt : steps) {
+    Setting setting = curve;
+    setting.label = stepLabel(dt);
+    setting.knob = setting.substep.emplace(dt);
+    setting.steps = curve.simulatedSeconds / dt;
+    setting.run = [run, dt] { return run(dt); };
+    plan.settings.push_back(std::move(setting));
+  }
 }
 
 std::vector<Study> carryOut(const Plan& plan, const Effort& effort, const TellProgress& tell) {

@@ -50,6 +50,14 @@ struct Plan {
   std::vector<Setting> settings;
 };
 
+/// "1/60 s"
+std::string stepLabel(double dt);
+
+/// Adds a curve over the step: `curve` has what its settings have in common (method, nodes, simulated seconds).
+/// @param steps  [s]
+void addSteps(Plan& plan, const Setting& curve, const std::vector<double>& steps,
+              const std::function<Outcome(double dt)>& run);
+
 /// A setting that was run.
 struct Point {
   std::string method;

@@ -118,18 +118,11 @@ FlagReference flagReference(double finest) {
 
 void addCurve(Plan& plan, const std::string& method, int side, double duration, const std::vector<double>& steps,
               const std::function<Outcome(double dt)>& run) {
-  for (const double dt : steps) {
-    Setting setting;
-    setting.method = method;
-    setting.label = stepLabel(dt);
-    setting.knob = dt;
-    setting.nodes = side * side;
-    setting.steps = duration / dt;
-    setting.simulatedSeconds = duration;
-    setting.substep = dt;
-    setting.run = [run, dt] { return run(dt); };
-    plan.settings.push_back(std::move(setting));
-  }
+  Setting curve;
+  curve.method = method;
+  curve.nodes = side * side;
+  curve.simulatedSeconds = duration;
+  addSteps(plan, curve, steps, run);
 }
 
 struct Integrator {
