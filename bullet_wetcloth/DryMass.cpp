@@ -1,5 +1,7 @@
 #include "bullet_wetcloth/DryMass.h"
 
+#include "bullet_wetcloth/Index.h"
+#include "bullet_wetcloth/NodeIndex.h"
 #include "bullet_wetcloth/Require.h"
 
 #include <algorithm>
@@ -14,18 +16,8 @@ namespace {
 // Bullet rounds the masses that it shares out; less than this is not a change.
 constexpr double kMassRounding = 1e-5;
 
-std::size_t indexOf(const btSoftBody& body, const btSoftBody::Node* node) {
-  return static_cast<std::size_t>(node - &body.m_nodes[0]);
-}
-
 double inverseMassOf(const btSoftBody& body, std::size_t node) {
   return static_cast<double>(body.m_nodes[static_cast<int>(node)].m_im);
-}
-
-double sum(const std::vector<double>& values) {
-  CompensatedSum total;
-  for (const double value : values) total.add(value);
-  return total.value();
 }
 
 void requireMasses(const btSoftBody& body) {
@@ -72,7 +64,8 @@ std::vector<double> neighbourWaterShare(const btSoftBody& body, const Water& wat
   std::vector<double> share(newCount, 0);
   std::vector<int> count(newCount, 0);
   for (int k = 0; k < body.m_links.size(); ++k) {
-    const std::size_t ends[2] = {indexOf(body, body.m_links[k].m_n[0]), indexOf(body, body.m_links[k].m_n[1])};
+    const std::size_t ends[2] = {index(indexOf(body, body.m_links[k].m_n[0])),
+                                 index(indexOf(body, body.m_links[k].m_n[1]))};
     for (int side = 0; side < 2; ++side) {
       const std::size_t added = ends[side];
       const std::size_t old = ends[1 - side];
@@ -89,17 +82,17 @@ std::vector<double> neighbourWaterShare(const btSoftBody& body, const Water& wat
 // what is more than all the room, in proportion to it.
 std::vector<double> shareOut(double amount, const std::vector<double>& weights, const std::vector<double>& rooms) {
   std::vector<double> parts(weights.size(), 0);
-  const double total = sum(weights);
+  const double total = compensatedSum(weights);
   if (total > 0) {
     for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = std::min(amount * weights[k] / total, rooms[k]);
   }
-  const double rest = amount - sum(parts);
-  const double room = sum(rooms) - sum(parts);
+  const double rest = amount - compensatedSum(parts);
+  const double room = compensatedSum(rooms) - compensatedSum(parts);
   if (!(rest > 0)) return parts;
   if (rest <= room) {
     for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += rest * ((rooms[k] - parts[k]) / room);
   } else {
-    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = amount * (rooms[k] / sum(rooms));
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = amount * (rooms[k] / compensatedSum(rooms));
   }
   return parts;
 }
@@ -111,7 +104,7 @@ std::vector<double> nodeAreas(const btSoftBody& body) {
   for (int f = 0; f < body.m_faces.size(); ++f) {
     btSoftBody::Node* const* corners = body.m_faces[f].m_n;
     const btVector3 twice = (corners[1]->m_x - corners[0]->m_x).cross(corners[2]->m_x - corners[0]->m_x);
-    for (int k = 0; k < 3; ++k) areas[indexOf(body, corners[k])] += static_cast<double>(twice.length()) / 6;
+    for (int k = 0; k < 3; ++k) areas[index(indexOf(body, corners[k]))] += static_cast<double>(twice.length()) / 6;
   }
   return areas;
 }
@@ -146,7 +139,7 @@ void redistributeWater(const btSoftBody& body, double arealDensity, Water& water
     // In proportion to mass and to how wet the surroundings are. Bullet gave each new node its wet mass: of that it may
     // hold as much as leaves it saturated.
     const std::vector<double> wet(dry.begin() + static_cast<std::ptrdiff_t>(oldCount), dry.end());
-    std::vector<double> weights = neighbourWaterShare(body, water, newCount, freed / sum(wet));
+    std::vector<double> weights = neighbourWaterShare(body, water, newCount, freed / compensatedSum(wet));
     std::vector<double> rooms = wet;
     for (std::size_t k = 0; k < newCount; ++k) {
       weights[k] *= wet[k];

@@ -37,6 +37,10 @@ inline void requireFraction(const std::string& field, double value) {
   if (!(value >= 0 && value <= 1)) rejectValue(field, value, "in [0, 1]");
 }
 
+inline bool isFinite(const btVector3& v) {
+  return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
+}
+
 inline void requireFinite(const std::string& field, double value) {
   if (!std::isfinite(value)) rejectValue(field, value, "finite");
 }

@@ -9,15 +9,11 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-namespace {
-
-double sum(const std::vector<double>& values) {
+double compensatedSum(const std::vector<double>& values) {
   CompensatedSum total;
   for (const double value : values) total.add(value);
   return total.value();
 }
-
-}  // namespace
 
 void CompensatedSum::transferState(StateArchive& archive) { archive.value(m_sum, m_compensation); }
 
@@ -29,7 +25,7 @@ Ledger Water::ledger() const {
   ledger.absorbed = absorbed.value();
   ledger.dripped = m_dripped.value();
   ledger.evaporated = m_evaporated.value();
-  ledger.held = sum(m_held);
+  ledger.held = compensatedSum(m_held);
   ledger.runOff = m_runOff.value();
   return ledger;
 }
@@ -120,7 +116,7 @@ void Water::reset(std::vector<double> dryMass, double capacityRatio) {
   m_held.assign(m_dryMass.size(), 0);
   m_arrivals.assign(m_dryMass.size(), Arrival());
   m_capacityRatio = capacityRatio;
-  m_totalDryMass = sum(m_dryMass);
+  m_totalDryMass = compensatedSum(m_dryMass);
   m_initial = m_absorbed = m_dripped = m_evaporated = m_runOff = CompensatedSum();
   m_newlyAbsorbed.fill(0);
   markMoved();
@@ -139,10 +135,10 @@ void Water::setHeld(const std::vector<double>& held) {
 
 void Water::replaceNodes(std::vector<double> dryMass, std::vector<double> held) {
   // Rounding of the redistribution is booked, so that the ledger stays closed for as long as the cloth lives.
-  m_initial.add(sum(held));
-  m_initial.add(-sum(m_held));
+  m_initial.add(compensatedSum(held));
+  m_initial.add(-compensatedSum(m_held));
   m_dryMass = std::move(dryMass);
-  m_totalDryMass = sum(m_dryMass);
+  m_totalDryMass = compensatedSum(m_dryMass);
   m_held = std::move(held);
   m_arrivals.assign(m_held.size(), Arrival());
   markMoved();

@@ -42,6 +42,14 @@ class CompensatedSum {
   double m_compensation = 0;
 };
 
+/// The same of all of these.
+double compensatedSum(const std::vector<double>& values);
+
+/// An exponential never arrives: when less than this share of a node's capacity is missing, or left to go, it goes all
+/// at once, so that a cloth which is full or dry can idle. A tenth of the closeness to the closed forms that we
+/// promise.
+constexpr double kNegligible = 1e-13;
+
 /// The water of one cloth, per node, and its ledger. All in kg and double, whatever Bullet's precision.
 ///
 /// Effects change it through absorb(), runOff(), drip(), handOver(), evaporate(), move() and redistribute(); what

@@ -81,7 +81,7 @@ class WetClothWorld {
   /// Saves what this world, its bodies and its cloths carry from one step to the next: a run that is saved and restored
   /// between any two steps goes on as if nothing had been, bit for bit (docs/trust.md tells where it does not).
   ///
-  /// Saved are the soft and rigid bodies' motion, sleep and forces, soft contacts, Bullet's trees of boxes and pairs,
+  /// Saved are the soft and rigid bodies' motion, sleep and forces, their contacts, Bullet's trees of boxes and pairs,
   /// the world's clock, the water, and what each effect remembers (Effect::transferState()). Left to the application
   /// are what it built and what it set: masses, shapes, materials, m_cfg, anchors, joints, multibodies, motion states,
   /// gravity, the effects' parameters and callbacks.

@@ -3,9 +3,6 @@
 namespace wetcloth::collision {
 namespace {
 
-/// As in IntervalTest: far more than underflow can do, far less than anything that could be proved.
-constexpr double kUnderflow = 0x1p-700;
-
 /// Sign of a determinant at one time, or 0. 6 products, each rounded 5 times, their three factors wrong by 3.01 u of
 /// the magnitude each: 6 (5 + 3 * 3.01) = 84.2.
 template <Pair pair>

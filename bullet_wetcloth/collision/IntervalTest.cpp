@@ -3,10 +3,6 @@
 namespace wetcloth::collision {
 namespace {
 
-/// More than everything that underflow can do to one of the sums below: at most 60 operations, each wrong by at most
-/// 2^-1022 (a flushed denormal), times what it is multiplied by afterwards, at most 2^305 (a direction's component).
-constexpr double kUnderflow = 0x1p-700;
-
 // The constants below count, in units of the roundoff u, how far a computed value may be from that of the exact motion.
 // They are rounded up; the second-order terms and the rounding of the bounds themselves (a few u, relative) are far
 // below what the rounding up leaves.

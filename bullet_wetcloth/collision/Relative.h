@@ -15,6 +15,11 @@ using Vector = Eigen::Vector3d;
 /// Unit roundoff of double.
 constexpr double kRoundoff = 0x1p-53;
 
+/// More than everything that underflow can do to one of the sums of IntervalTest or ContactProof, and far less than
+/// anything that could be proved: at most 60 operations, each wrong by at most 2^-1022 (a flushed denormal), times what
+/// it is multiplied by afterwards, at most 2^305 (a direction's component).
+constexpr double kUnderflow = 0x1p-700;
+
 /// The vectors between four points at one time. All of a query is in them, and they round better than positions: a
 /// difference of two doubles has a relative error of kRoundoff, however far away the two are.
 ///

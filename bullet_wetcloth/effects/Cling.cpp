@@ -20,8 +20,6 @@ namespace {
 constexpr btScalar kRestoring = btScalar(0.5);
 // Of a limit, so that rounding does not lift what was brought down to it.
 constexpr double kNearly = 0.999;
-// How far what a sleeping cloth clings to may move before the cloth wakes [m].
-constexpr btScalar kStirred = btScalar(1e-3);
 
 void requireValid(const Cling::Parameters& parameters) {
   requireNotNegative("Cling.adhesion", parameters.adhesion);
@@ -35,7 +33,7 @@ void requireValid(const Cling::Parameters& parameters) {
   requireFraction("Cling.floodedShare", parameters.floodedShare);
 }
 
-int proxyOf(const btCollisionObject& object) {
+int proxyNumberOf(const btCollisionObject& object) {
   const btBroadphaseProxy* proxy = object.getBroadphaseHandle();
   return proxy ? proxy->m_uniqueId : -1;
 }
@@ -110,7 +108,7 @@ void Cling::apply(WetCloth& cloth, const Step& step) {
     Bond& bond = m_bonds[i];
     if (!bond.object) continue;
     ++m_nodesVisited;
-    const bool isThere = objects.find(bond.object) && proxyOf(*bond.object) == bond.proxy;
+    const bool isThere = objects.find(bond.object) && proxyNumberOf(*bond.object) == bond.proxy;
     const bool holds = isThere && bond.object->hasContactResponse() && share(cloth.water().saturation(i)) > 0;
     if (holds && cloth.body().m_nodes[static_cast<int>(i)].m_im > 0) {
       hold(cloth, step, i);
@@ -145,7 +143,7 @@ void Cling::take(WetCloth& cloth, const RigidContact& contact) {
   if (cloth.body().m_nodes[node].m_im == 0) return;
 
   Bond& bond = m_bonds[i];
-  const int proxy = proxyOf(object);
+  const int proxy = proxyNumberOf(object);
   const bool isSame = bond.object == contact.object && bond.proxy == proxy;
   if (bond.object && !isSame) return;  // held by the first of two
   const btTransform& frame = object.getWorldTransform();
@@ -212,7 +210,7 @@ bool Cling::wakes(const WetCloth& cloth, const Step&) const {
   for (std::size_t i = 0; i < m_bonds.size(); ++i) {
     const Bond& bond = m_bonds[i];
     if (!bond.object) continue;
-    if (!objects.find(bond.object) || proxyOf(*bond.object) != bond.proxy) return true;
+    if (!objects.find(bond.object) || proxyNumberOf(*bond.object) != bond.proxy) return true;
     const btVector3 place = bond.object->getWorldTransform() * bond.anchor;
     if ((place - cloth.body().m_nodes[static_cast<int>(i)].m_x).length2() > kStirred * kStirred) return true;
   }

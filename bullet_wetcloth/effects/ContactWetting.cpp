@@ -18,12 +18,6 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-// An exponential never arrives: a node that is nearer to full than this takes the rest, and two that differ less count
-// as alike.
-constexpr double kNegligible = 1e-13;
-// How far an object may move before a cloth that sleeps on it touches it no more [m].
-constexpr btScalar kStirred = btScalar(1e-3);
-
 void requireFilm(const std::string& field, double water) {
   if (!(water >= 0)) rejectValue(field, water, ">= 0 (infinite is allowed)");
 }

@@ -1,6 +1,7 @@
 #include "bullet_wetcloth/effects/Diffusion.h"
 
 #include "bullet_wetcloth/Direction.h"
+#include "bullet_wetcloth/Index.h"
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/effects/DiffusionSolver.h"
@@ -17,10 +18,8 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-constexpr double kMostSubsteps = 1000;
-constexpr double kLargestExponent = 100;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
+constexpr double kMostDiffusionSubsteps = 1000;
+constexpr double kLargestDiffusionExponent = 100;
 
 std::vector<WeightedEdge> diffusionEdges(const RestMesh& mesh, const Diffusion::Parameters& parameters,
                                          const std::vector<double>& warpCoordinate) {
@@ -49,7 +48,7 @@ Diffusion::Diffusion(Parameters parameters)
       m_solver(std::make_unique<DiffusionSolver>()) {
   requirePositive("Diffusion.warpDiffusivity", m_parameters.warpDiffusivity);
   requirePositive("Diffusion.weftDiffusivity", m_parameters.weftDiffusivity);
-  if (!(m_parameters.exponent >= 0 && m_parameters.exponent <= kLargestExponent)) {
+  if (!(m_parameters.exponent >= 0 && m_parameters.exponent <= kLargestDiffusionExponent)) {
     rejectValue("Diffusion.exponent", m_parameters.exponent, "in [0, 100]");
   }
   requireFinite("Diffusion.warp", m_parameters.warp);
@@ -131,7 +130,7 @@ void Diffusion::setPotential() {
 }
 
 void Diffusion::flowInSubsteps(double dt) {
-  const double count = std::clamp(std::ceil(dt / m_longestSubstep), 1.0, kMostSubsteps);
+  const double count = std::clamp(std::ceil(dt / m_longestSubstep), 1.0, kMostDiffusionSubsteps);
   std::fill(m_fluxes.begin(), m_fluxes.end(), 0);
   for (int substep = 0; substep < static_cast<int>(count); ++substep) {
     setPotential();

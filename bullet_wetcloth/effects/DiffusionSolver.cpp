@@ -1,5 +1,6 @@
 #include "bullet_wetcloth/effects/DiffusionSolver.h"
 
+#include "bullet_wetcloth/Index.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
@@ -13,8 +14,6 @@ namespace {
 
 constexpr double kShortestWithFactor = 0.8;
 constexpr int kMostIterations = 1000;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 double dot(const std::vector<double>& x, const std::vector<double>& y) {
   double sum = 0;

@@ -10,14 +10,6 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-namespace {
-
-// An exponential never arrives. When less than this share of the capacity is above what the node keeps, it all goes, so
-// that a cloth which has dripped off can idle.
-constexpr double kNegligible = 1e-13;
-
-}  // namespace
-
 double drippingStep(double held, double holding, double timeConstant, double dt) {
   return held > holding ? (held - holding) * -std::expm1(-dt / timeConstant) : 0;
 }

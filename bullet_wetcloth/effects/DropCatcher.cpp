@@ -1,5 +1,6 @@
 #include "bullet_wetcloth/effects/DropCatcher.h"
 
+#include "bullet_wetcloth/NodeIndex.h"
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -53,7 +54,7 @@ void DropCatcher::attach(const char* effect, const btSoftBody& body) {
   m_triangles.resize(static_cast<std::size_t>(body.m_faces.size()));
   for (std::size_t f = 0; f < m_triangles.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
-      m_triangles[f][k] = static_cast<int>(body.m_faces[static_cast<int>(f)].m_n[k] - &body.m_nodes[0]);
+      m_triangles[f][k] = indexOf(body, body.m_faces[static_cast<int>(f)].m_n[k]);
     }
   }
 }

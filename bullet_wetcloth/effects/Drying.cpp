@@ -15,10 +15,6 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-// An exponential never arrives. When less than this share of the capacity is left it all goes, so that a dry cloth can
-// idle.
-constexpr double kNegligible = 1e-13;
-
 constexpr double kSecondsPerDay = 86400;
 constexpr double kPenman = 6.43e3 / kSecondsPerDay;  // in still air [W/m^2/Pa]
 constexpr double kWindFunction = 0.536;              // [s/m]

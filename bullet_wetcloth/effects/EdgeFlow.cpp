@@ -1,5 +1,6 @@
 #include "bullet_wetcloth/effects/EdgeFlow.h"
 
+#include "bullet_wetcloth/Index.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -10,8 +11,6 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 bool moveAlike(const btSoftBody& body) {
   for (int i = 1; i < body.m_nodes.size(); ++i) {

@@ -1,5 +1,7 @@
 #include "bullet_wetcloth/effects/FluxLimiter.h"
 
+#include "bullet_wetcloth/Index.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,10 +12,8 @@ inline namespace WETCLOTH_PRECISION {
 namespace {
 
 constexpr int kRounds = 4;
-constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr double kSumRounding = 8 * std::numeric_limits<double>::epsilon();
 constexpr double kLargestFlux = 1e100;  // sums of them stay finite [kg]
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 double share(double allowed, double wanted) { return wanted > allowed ? std::max(allowed, 0.0) / wanted : 1; }
 
@@ -57,7 +57,7 @@ bool FluxLimiter::findOffenders(const std::vector<double>& held) {
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
     Node& node = m_nodes[i];
     const double result = held[i] + (node.in - node.out);
-    const double rounding = kRounding * (held[i] + node.in + node.out);
+    const double rounding = kSumRounding * (held[i] + node.in + node.out);
     node.takeShare = node.giveShare = 1;
     if (result >= -rounding && result <= node.ceiling + rounding) continue;
     found = true;

@@ -1,5 +1,7 @@
 #include "bullet_wetcloth/effects/LinkSaturation.h"
 
+#include "bullet_wetcloth/Index.h"
+#include "bullet_wetcloth/NodeIndex.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -20,8 +22,7 @@ void LinkSaturation::reset(const WetCloth& cloth) {
   m_links.resize(static_cast<std::size_t>(body.m_links.size()));
   for (std::size_t k = 0; k < m_links.size(); ++k) {
     const btSoftBody::Link& link = body.m_links[static_cast<int>(k)];
-    m_links[k] = {static_cast<std::size_t>(link.m_n[0] - &body.m_nodes[0]),
-                  static_cast<std::size_t>(link.m_n[1] - &body.m_nodes[0])};
+    m_links[k] = {index(indexOf(body, link.m_n[0])), index(indexOf(body, link.m_n[1]))};
   }
   m_saturation.resize(cloth.water().size());
   take(cloth);

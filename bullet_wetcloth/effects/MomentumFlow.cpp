@@ -1,13 +1,13 @@
 #include "bullet_wetcloth/effects/MomentumFlow.h"
 
+#include "bullet_wetcloth/Index.h"
+
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
 constexpr int kDone = -1;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 // v' - v = sum of in (v'_from - v) / (m + in), which leaves even motion exactly as it is.
 void mix(MomentumFlow::Node& node, const std::array<double, 3>& momentum, double inflow) {

@@ -46,10 +46,6 @@ class NodeUptake {
   }
 
  private:
-  // An exponential never arrives. When less than this share of the capacity is missing the node takes it all, so that
-  // a saturated cloth can idle; it is a tenth of the closeness to the closed form that we promise (1e-12).
-  static constexpr double kNegligible = 1e-13;
-
   void take(Water& water, std::size_t node, double taken, bool fills, double vx, double vy, double vz) {
     const double before = water.held(node);
     const double portion = taken + m_carry[node];

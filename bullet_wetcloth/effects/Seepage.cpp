@@ -1,5 +1,6 @@
 #include "bullet_wetcloth/effects/Seepage.h"
 
+#include "bullet_wetcloth/Index.h"
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/effects/EdgeFlow.h"
@@ -16,10 +17,8 @@ inline namespace WETCLOTH_PRECISION {
 namespace {
 
 constexpr double kEarthGravity = 9.81;  // [m/s^2]
-constexpr double kMostSubsteps = 64;
-constexpr double kLargestExponent = 100;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
+constexpr double kMostSeepageSubsteps = 64;
+constexpr double kLargestSeepageExponent = 100;
 
 // With the nodes' conductivities known.
 double upwindFlow(double conductance, double speed, double first, double second, double drop) {
@@ -42,7 +41,7 @@ double seepageFlow(double conductance, double speed, double exponent, double fir
 
 Seepage::Seepage(Parameters parameters) : m_parameters(parameters), m_flow(std::make_unique<EdgeFlow>()) {
   requireNotNegative("Seepage.speed", m_parameters.speed);
-  if (!(m_parameters.exponent >= 1 && m_parameters.exponent <= kLargestExponent)) {
+  if (!(m_parameters.exponent >= 1 && m_parameters.exponent <= kLargestSeepageExponent)) {
     rejectValue("Seepage.exponent", m_parameters.exponent, "in [1, 100]");
   }
 }
@@ -92,7 +91,7 @@ double Seepage::substepCount(double speed, double dt) {
   for (std::size_t i = 0; i < m_outflow.size(); ++i) {
     fastest = std::max(fastest, m_outflow[i] / m_flow->capacities()[i]);
   }
-  return std::clamp(std::ceil(dt * speed * m_parameters.exponent * fastest), 1.0, kMostSubsteps);
+  return std::clamp(std::ceil(dt * speed * m_parameters.exponent * fastest), 1.0, kMostSeepageSubsteps);
 }
 
 void Seepage::flow(double speed, double dt) {

@@ -1,5 +1,6 @@
 #include "bullet_wetcloth/effects/SweptFaces.h"
 
+#include "bullet_wetcloth/NodeIndex.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <cmath>
@@ -139,7 +140,7 @@ void SweptFaces::buildTree(int* first, int* last, const btSoftBody& body, const 
 void SweptFaces::addPatch(const int* first, const int* last, const btSoftBody& body) {
   for (; first != last; ++first) {
     const btSoftBody::Face& face = body.m_faces[*first];
-    const auto nodeAt = [&](int corner) { return static_cast<int>(face.m_n[corner] - &body.m_nodes[0]); };
+    const auto nodeAt = [&](int corner) { return indexOf(body, face.m_n[corner]); };
     const int index = static_cast<int>(m_faces.nodes.size());
     m_faces.nodes.push_back({{nodeAt(0), nodeAt(1), nodeAt(2)}, index});
   }

@@ -1,6 +1,7 @@
 #include "bullet_wetcloth/effects/Wind.h"
 
 #include "bullet_wetcloth/DryMass.h"
+#include "bullet_wetcloth/NodeIndex.h"
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/effects/FluidResistance.h"
@@ -102,7 +103,7 @@ void Wind::attach(WetCloth& cloth) {
   m_triangles.resize(static_cast<std::size_t>(body.m_faces.size()));
   for (std::size_t f = 0; f < m_triangles.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
-      m_triangles[f][k] = static_cast<int>(body.m_faces[static_cast<int>(f)].m_n[k] - &body.m_nodes[0]);
+      m_triangles[f][k] = indexOf(body, body.m_faces[static_cast<int>(f)].m_n[k]);
     }
   }
   const std::vector<double> areas = nodeAreas(body);

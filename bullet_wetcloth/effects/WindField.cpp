@@ -5,12 +5,6 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-namespace {
-
-bool isFinite(const btVector3& v) { return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z()); }
-
-}  // namespace
-
 btVector3 WindField::at(const btVector3& position, double time) const {
   if (!m_function) return m_constant;
   const btVector3 value = m_function(position, time);

@@ -78,8 +78,6 @@ std::vector<btVector3> nodePositions(const ClothPatch& patch) {
   return positions;
 }
 
-bool isFinite(const btVector3& v) { return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z()); }
-
 void requireValid(const ClothPatch& patch) {
   if (patch.columns < 2) rejectValue("ClothPatch.columns", patch.columns, ">= 2");
   if (patch.rows < 2) rejectValue("ClothPatch.rows", patch.rows, ">= 2");

@@ -1,5 +1,6 @@
 #include "bullet_wetcloth/mesh/IntrinsicDelaunay.h"
 
+#include "bullet_wetcloth/Index.h"
 #include "bullet_wetcloth/mesh/TriangleArea.h"
 
 #include <algorithm>
@@ -15,12 +16,10 @@ namespace {
 
 // Of a cotangent. Rest lengths are single precision, so the right angles of a grid are known to 1e-7; whichever
 // diagonal a square has, it must neither be flipped nor conduct.
-constexpr double kRounding = 1e-6;
+constexpr double kCotangentRounding = 1e-6;
 constexpr double kDegenerate = 1e-9;  // area over the longest side's square
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t kFlipsPerEdge = 100;  // more is rounding that goes round in circles
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 class Triangulation {
  public:
@@ -128,7 +127,7 @@ bool Triangulation::canFlip(int edge) const {
   const Edge& e = m_edges[index(edge)];
   if (e.faceCount != 2 || !(e.length > 0)) return false;
   const double sum = cotangent(e.faces[0], edge, kInfinite) + cotangent(e.faces[1], edge, kInfinite);
-  return sum < -kRounding;  // false, too, between two triangles of no area
+  return sum < -kCotangentRounding;  // false, too, between two triangles of no area
 }
 
 // Turns the diagonal ij of the quadrilateral i l j k into kl.
@@ -209,7 +208,7 @@ std::vector<WeightedEdge> Triangulation::weights() const {
   std::vector<WeightedEdge> edges;
   edges.reserve(m_edges.size());
   for (std::size_t e = 0; e < m_edges.size(); ++e) {
-    if (cotangents[e] > kRounding) edges.push_back({m_edges[e].a, m_edges[e].b, cotangents[e] / 2});
+    if (cotangents[e] > kCotangentRounding) edges.push_back({m_edges[e].a, m_edges[e].b, cotangents[e] / 2});
   }
   return edges;
 }
@@ -271,7 +270,7 @@ std::vector<MeasuredTriangle> orthotropicTriangles(const RestMesh& mesh, const s
     const double warpY = u2 * corners[1][0] - u1 * corners[2][0];
     const double steepness = std::hypot(warpX, warpY);
     const double base = triangle.lengths[2];
-    const bool hasWarp = steepness > kRounding * base * corners[2][1];
+    const bool hasWarp = steepness > kCotangentRounding * base * corners[2][1];
     for (std::size_t k = 0; k < 3; ++k) {
       if (!hasWarp) {
         triangle.lengths[k] /= std::sqrt(mean);

@@ -1,5 +1,6 @@
 #include "bullet_wetcloth/mesh/RestMesh.h"
 
+#include "bullet_wetcloth/NodeIndex.h"
 #include "bullet_wetcloth/mesh/TriangleArea.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -11,8 +12,6 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 namespace {
-
-int indexOf(const btSoftBody& body, const btSoftBody::Node* node) { return static_cast<int>(node - &body.m_nodes[0]); }
 
 std::pair<int, int> ends(const RestMesh::Edge& edge) { return {edge.a, edge.b}; }
 

@@ -8,6 +8,20 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+namespace {
+
+// A stream may hold anything: what an error shows of it stays one line of letters.
+std::string quoted(const std::string& text) {
+  constexpr std::size_t kLongest = 80;
+  std::string shown = text.substr(0, kLongest);
+  for (char& letter : shown) {
+    if (letter < ' ' || letter > '~') letter = '?';
+  }
+  return '"' + shown + (text.size() > kLongest ? "...\"" : "\"");
+}
+
+}  // namespace
+
 StateArchive::StateArchive(const btCollisionWorld& world) : m_world(world), m_mode(Mode::save) {}
 
 StateArchive::StateArchive(const btCollisionWorld& world, std::vector<unsigned char> bytes)
@@ -60,7 +74,8 @@ void StateArchive::expect(const std::string& live, const std::string& what) {
   std::string found(count(live.size()), ' ');
   if (isSaving()) found = live;
   bytes(found.data(), found.size(), Target::scratch);
-  if (isChecking() && found != live) fail(what + " is \"" + live + "\" here and \"" + found + "\" in the saved state");
+  if (isChecking() && found != live)
+    fail(what + " is " + quoted(live) + " here and " + quoted(found) + " in the saved state");
 }
 
 void StateArchive::object(const btCollisionObject*& object) {

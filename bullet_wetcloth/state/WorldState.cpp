@@ -3,6 +3,7 @@
 #include "bullet_wetcloth/state/BroadphaseState.h"
 #include "bullet_wetcloth/state/CollisionObjectState.h"
 #include "bullet_wetcloth/state/DeformableSolverState.h"
+#include "bullet_wetcloth/state/RigidContactState.h"
 
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 
@@ -40,6 +41,7 @@ void transferWorld(StateArchive& archive, btDiscreteDynamicsWorld& world, const 
   for (int i = 0; i < bodies.size(); ++i) transferSoftBody(archive, *bodies[i], bodies);
   if (isDeformable) transferDeformableSolver(archive, bodies);
   transferBroadphase(archive, world);
+  transferRigidContacts(archive, world);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -7,9 +7,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-/// What Bullet's world carries from one step to the next: its clock, the random numbers of its solver, its objects and
-/// its broadphase. Contact points between rigid bodies are not saved: they are found anew, without the impulses of the
-/// last step to start from.
+/// What Bullet's world carries from one step to the next: its clock, the random numbers of its solver, its objects,
+/// its broadphase, and the contact points of its rigid bodies.
 void transferWorld(StateArchive& archive, btDiscreteDynamicsWorld& world, const SoftBodyArray& bodies);
 
 }  // namespace WETCLOTH_PRECISION

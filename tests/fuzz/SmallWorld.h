@@ -14,13 +14,18 @@
 
 namespace fuzz {
 
-/// Nine nodes that hang over a sphere, with effects of every kind of state, after some steps.
+/// Nine nodes that hang over a sphere on which a dumbbell lies, with effects of every kind of state, after some steps.
 class SmallWorld {
  public:
   SmallWorld() {
     m_world.getWorldInfo().m_sparsesdf.Initialize();
     m_sphere.getWorldTransform().setOrigin(btVector3(btScalar(0.5), btScalar(-0.2), btScalar(0.5)));
     m_world.addRigidBody(&m_sphere);
+    for (const double side : {-0.1, 0.1}) {
+      m_dumbbellShape.addChildShape(btTransform(btQuaternion::getIdentity(), btVector3(btScalar(side), 0, 0)), &m_end);
+    }
+    m_dumbbell.getWorldTransform().setOrigin(btVector3(btScalar(0.5), btScalar(0.14), btScalar(0.5)));
+    m_world.addRigidBody(&m_dumbbell);
     wetcloth::ClothPatch patch;
     patch.columns = patch.rows = 3;
     patch.pinnedEdges = {wetcloth::ClothPatch::Edge::top};
@@ -43,6 +48,7 @@ class SmallWorld {
   ~SmallWorld() {
     m_wet.reset();
     m_world.removeSoftBody(m_body.get());
+    m_world.removeRigidBody(&m_dumbbell);
     m_world.removeRigidBody(&m_sphere);
   }
   SmallWorld(const SmallWorld&) = delete;
@@ -74,6 +80,10 @@ class SmallWorld {
   btSoftRigidDynamicsWorld m_world{&m_dispatcher, &m_broadphase, &m_solver, &m_configuration};
   btSphereShape m_shape{btScalar(0.3)};
   btRigidBody m_sphere{btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &m_shape)};
+  btSphereShape m_end{btScalar(0.05)};
+  btCompoundShape m_dumbbellShape;
+  btRigidBody m_dumbbell{btRigidBody::btRigidBodyConstructionInfo(
+      btScalar(0.1), nullptr, &m_dumbbellShape, btVector3(btScalar(0.001), btScalar(0.001), btScalar(0.001)))};
   std::unique_ptr<btSoftBody> m_body;
   std::unique_ptr<wetcloth::WetClothWorld> m_wet;
   std::string m_start;

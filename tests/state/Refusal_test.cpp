@@ -2,11 +2,16 @@
 
 #include "StateScene.h"
 
+#include "bullet_wetcloth/state/StateEnvelope.h"
+
+#include <cstdint>
+
 namespace wetcloth_test {
 namespace {
 
 using namespace state_scene;
 
+constexpr std::size_t kEnvelope = 48;  // bytes before the state itself
 const Case kCase = {WorldKind::softRigid, Story::onRigid};
 
 class StateRefusal : public testing::Test {
@@ -56,11 +61,24 @@ TEST_F(StateRefusal, OfWhatIsNoSavedState) {
   expectRefused(std::string(1000, '\0'), "no saved state");
 }
 
+// Whatever a stream holds, what is said of it is one line that a terminal shows as it is.
+TEST_F(StateRefusal, InOneLine) {
+  std::string state = m_state.substr(kEnvelope);
+  const std::size_t name = state.find("WetFriction");
+  ASSERT_NE(name, std::string::npos);
+  state[name] = '\n';
+  state[name + 1] = '\x1b';
+  std::ostringstream stream;
+  wetcloth::StateEnvelope::write(stream, static_cast<std::uint32_t>(m_scene.bullet().world().getWorldType()),
+                                 std::vector<unsigned char>(state.begin(), state.end()));
+  expectRefused(stream.str(), "??tFriction");
+}
+
 // Of the bytes that are named in StateEnvelope.cpp: the hash is looked at last.
 TEST_F(StateRefusal, NamesAnotherVersionAndPrecision) {
   std::string other = m_state;
   other[12] = 77;
-  expectRefused(other, "format version is 77; here it is 1");
+  expectRefused(other, "format version is 77; here it is " + std::to_string(wetcloth::StateEnvelope::kVersion));
   other = m_state;
   other[20] = kIsDouble ? 4 : 8;
   expectRefused(other, "precision");

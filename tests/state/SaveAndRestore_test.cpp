@@ -16,7 +16,7 @@ class SaveAndRestore : public testing::TestWithParam<Case> {};
 // within a process, so no two runs of that are alike, saved or not (docs/bullet_notes.md).
 std::vector<Case> reproducibleCases() {
   std::vector<Case> cases;
-  for (const Story story : {Story::hanging, Story::onRigid, Story::clothOnCloth}) {
+  for (const Story story : {Story::hanging, Story::onRigid, Story::onPile, Story::clothOnCloth}) {
     for (const WorldKind kind :
          {WorldKind::softRigid, WorldKind::softMultiBody, WorldKind::deformable, WorldKind::deformableImplicit}) {
       const bool isDeformable = kind == WorldKind::deformable || kind == WorldKind::deformableImplicit;

@@ -5,6 +5,8 @@
 #include "tests/support/ContactScene.h"
 #include "tests/support/CoreScene.h"
 
+#include <BulletCollision/CollisionShapes/btTriangleMesh.h>
+
 #include <cstring>
 #include <memory>
 #include <ostream>
@@ -20,10 +22,10 @@ namespace state_scene {
 
 using namespace wetcloth_test;
 
-enum class Story { hanging, onRigid, clothOnCloth, sleeping };
+enum class Story { hanging, onRigid, onPile, clothOnCloth, sleeping };
 
 inline std::ostream& operator<<(std::ostream& out, Story story) {
-  const char* const names[] = {"hanging", "onRigid", "clothOnCloth", "sleeping"};
+  const char* const names[] = {"hanging", "onRigid", "onPile", "clothOnCloth", "sleeping"};
   return out << names[static_cast<int>(story)];
 }
 
@@ -43,6 +45,7 @@ class StateScene {
     switch (what.story) {
       case Story::hanging: buildHanging(); break;
       case Story::onRigid: buildOnRigid(); break;
+      case Story::onPile: buildOnPile(); break;
       case Story::clothOnCloth: buildClothOnCloth(); break;
       case Story::sleeping: buildSleeping(); break;
     }
@@ -165,6 +168,35 @@ class StateScene {
     cloth.add<wetcloth::WetFriction>();
   }
 
+  // A cloth falls over rigid bodies that lie on each other, each pair of shapes with contacts of its own kind: boxes,
+  // a lying roller, a dumbbell of two balls, a slope of triangles, and a ball that is fast enough for Bullet to predict
+  // where it hits.
+  void buildOnPile() {
+    wetcloth::ClothPatch patch = core::squarePatch(7);
+    patch.origin = btVector3(btScalar(-0.5), btScalar(0.5), btScalar(-0.5));
+    add(patch).add<wetcloth::Absorption>();
+    addBulletSprings();
+    addRigid(std::make_unique<btBoxShape>(btVector3(2, btScalar(0.1), 2)), 0, btVector3(0, btScalar(-0.1), 0));
+    for (int i = 0; i < 3; ++i) {
+      addRigid(std::make_unique<btBoxShape>(btVector3(btScalar(0.1), btScalar(0.05), btScalar(0.1))), 0.2 + 0.3 * i,
+               btVector3(btScalar(0.02 * i), btScalar(0.051 + 0.101 * i), 0));
+    }
+    addRigid(std::make_unique<btCylinderShapeZ>(btVector3(btScalar(0.06), btScalar(0.06), btScalar(0.1))), 0.3,
+             btVector3(btScalar(0.3), btScalar(0.07), 0));
+    auto dumbbell = std::make_unique<btCompoundShape>();
+    for (const double side : {-0.1, 0.1}) {
+      dumbbell->addChildShape(btTransform(btQuaternion::getIdentity(), btVector3(btScalar(side), 0, 0)), &m_end);
+    }
+    addRigid(std::move(dumbbell), 0.4, btVector3(btScalar(0.03), btScalar(0.4), btScalar(0.02)));
+    m_triangles.addTriangle(btVector3(-1, 0, -1), btVector3(-1, 0, 1), btVector3(-1, 1, 0));
+    m_triangles.addTriangle(btVector3(-1, 1, -1), btVector3(-1, 1, 1), btVector3(btScalar(-0.2), 0, 0));
+    addRigid(std::make_unique<btBvhTriangleMeshShape>(&m_triangles, true), 0, btVector3(0, 0, 0));
+    addRigid(std::make_unique<btSphereShape>(btScalar(0.04)), 0.05, btVector3(btScalar(-0.6), btScalar(0.6), 0));
+    ball().setCcdMotionThreshold(btScalar(0.01));
+    ball().setCcdSweptSphereRadius(btScalar(0.03));
+    ball().setLinearVelocity(btVector3(6, -6, 0));
+  }
+
   // A wet cloth falls onto a dry one that is held at its corners.
   void buildClothOnCloth() {
     wetcloth::ClothPatch lower = core::squarePatch(7);
@@ -199,6 +231,8 @@ class StateScene {
 
   BulletWorld m_bullet;
   bool m_isDeformable;
+  btSphereShape m_end{btScalar(0.05)};  // of the dumbbell
+  btTriangleMesh m_triangles;
   std::vector<std::unique_ptr<core::RigidBody>> m_rigid;
   std::vector<std::unique_ptr<btSoftBody>> m_bodies;
   std::unique_ptr<wetcloth::WetClothWorld> m_wet;
