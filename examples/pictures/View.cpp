@@ -11,7 +11,7 @@ namespace {
 constexpr float freeBorder = 0.09F;  // of the picture's width and height, on each side
 
 /// Lowest and highest of what was added.
-struct Extent {
+struct Interval {
   float low = 1e30F;
   float high = -1e30F;
 
@@ -65,11 +65,11 @@ View fitView(const Scenery& scenery, const std::vector<Frame>& frames, float asp
   const float tangentY = (1 - 2 * freeBorder) * std::tan(scenery.fieldOfView * 3.14159265F / 360);
   const float tangentX = tangentY * aspect;
   Vector3 eye{0, 0, 0};
-  Extent depth;
+  Interval depth;
   for (const Vector3& point : points) depth.add(point[2]);
   eye[2] = depth.low - 1;
   for (int round = 0; round < 8; ++round) {
-    Extent x, y;
+    Interval x, y;
     for (const Vector3& point : points) {
       x.add((point[0] - eye[0]) / (point[2] - eye[2]));
       y.add((point[1] - eye[1]) / (point[2] - eye[2]));

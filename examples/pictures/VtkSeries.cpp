@@ -56,7 +56,7 @@ std::string bytesOf(const std::vector<float>& values) {
   return bytes;
 }
 
-std::string coloursOf(const ClothShape& shape, const ClothState& state) {
+std::string colourArray(const ClothShape& shape, const ClothState& state) {
   std::string bytes;
   for (const float saturation : state.saturation) {
     for (const std::uint8_t c : encodedColour(clothColour(shape, saturation))) putByte(bytes, c);
@@ -84,7 +84,7 @@ std::string polyData(const ClothShape& shape, const ClothState& state, double ti
   data.array("Float32", "wetness", 1, bytesOf(state.saturation));
   data.array("Float32", "speed", 1, bytesOf(state.speed));
   data.array("Float32", "stretch", 1, bytesOf(state.stretch));
-  data.array("UInt8", "colour", 3, coloursOf(shape, state));
+  data.array("UInt8", "colour", 3, colourArray(shape, state));
   data.array("Float32", "Normals", 3, bytesOf(vertexNormals(state.positions, shape.triangles)));
   data.end("PointData");
   data.begin("Points");

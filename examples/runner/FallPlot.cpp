@@ -31,13 +31,13 @@ PlotSeries closedForm(const FallMode& mode, const FallMode::Case& fallCase, cons
   return series;
 }
 
-struct Shown {
+struct ShownFall {
   std::string name;  ///< of the mode's case
   std::string legend;
   std::string colour;
 };
 
-Plot fallPlot(const FallMode& mode, const std::string& title, const std::vector<Shown>& shown) {
+Plot fallPlot(const FallMode& mode, const std::string& title, const std::vector<ShownFall>& shown) {
   Plot plot;
   plot.name = "fall_" + mode.name;
   plot.title = title;

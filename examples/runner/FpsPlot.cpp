@@ -46,7 +46,7 @@ class TimedFall {
   PlotSeries m_series;
 };
 
-struct Shown {
+struct ShownSpeed {
   const char* name;  ///< of the case in paper mode
   const char* legend;
   const char* colour;
@@ -56,14 +56,14 @@ struct Shown {
 
 /// The cloths take turns, frame by frame, so that whatever slows the machine slows all of them.
 std::vector<Plot> fpsPlots(const PlotProgress& progress) {
-  const Shown shown[] = {{"dry", "dry (Fig. 17)", plot_colours::red},
-                         {"0.093 g", "0.093 g (Fig. 18)", plot_colours::orange},
-                         {"0.342 g", "0.342 g", plot_colours::green},
-                         {"0.591 g", "0.591 g", plot_colours::purple},
-                         {"0.84 g", "0.84 g, saturated (Fig. 20)", plot_colours::blue}};
+  const ShownSpeed shown[] = {{"dry", "dry (Fig. 17)", plot_colours::red},
+                              {"0.093 g", "0.093 g (Fig. 18)", plot_colours::orange},
+                              {"0.342 g", "0.342 g", plot_colours::green},
+                              {"0.591 g", "0.591 g", plot_colours::purple},
+                              {"0.84 g", "0.84 g, saturated (Fig. 20)", plot_colours::blue}};
   const FallMode mode = FallMode::paper();
   std::vector<std::unique_ptr<TimedFall>> falls;
-  for (const Shown& one : shown) {
+  for (const ShownSpeed& one : shown) {
     const auto isIt = [&](const FallMode::Case& fallCase) { return fallCase.name == one.name; };
     falls.push_back(std::make_unique<TimedFall>(mode, *std::find_if(mode.cases.begin(), mode.cases.end(), isIt)));
   }

@@ -12,7 +12,7 @@
 namespace runner {
 namespace {
 
-std::string escaped(const std::string& key) {
+std::string escapedKey(const std::string& key) {
   std::string text;
   for (const char character : key) {
     if (character == '~') {
@@ -87,7 +87,7 @@ void JsonCursor::expectObject(const KeyTable& keys) {
   if (!isObject()) reject("an object with keys among " + joined(keys.keys));
   for (const auto& [key, value] : m_value->items()) {
     if (std::find(keys.keys.begin(), keys.keys.end(), key) != keys.keys.end()) continue;
-    JsonCursor(value, m_file, m_pointer + "/" + escaped(key))
+    JsonCursor(value, m_file, m_pointer + "/" + escapedKey(key))
         .complain("unknown key; " + didYouMean(key, keys.keys) + "allowed here: " + joined(keys.keys));
   }
   m_keys = &keys;
@@ -99,7 +99,7 @@ std::optional<JsonCursor> JsonCursor::find(const std::string& key) const {
   }
   const auto found = m_value->find(key);
   if (found == m_value->end()) return std::nullopt;
-  return JsonCursor(*found, m_file, m_pointer + "/" + escaped(key));
+  return JsonCursor(*found, m_file, m_pointer + "/" + escapedKey(key));
 }
 
 JsonCursor JsonCursor::at(const std::string& key) const {

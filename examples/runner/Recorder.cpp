@@ -2,6 +2,7 @@
 
 #include "ScenePainter.h"
 
+#include "bullet_wetcloth/Index.h"
 #include "bullet_wetcloth/shading/Colour.h"
 
 #include <algorithm>
@@ -14,8 +15,6 @@ namespace {
 
 using pictures::ClothShape;
 using pictures::ClothState;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 pictures::Vector3 plain(const btVector3& vector) {
   return {static_cast<float>(vector.x()), static_cast<float>(vector.y()), static_cast<float>(vector.z())};
@@ -122,7 +121,7 @@ pictures::Scenery sceneryOf(const Scene& scene) {
 }
 
 void takeNodes(const btSoftBody& body, ClothState& state) {
-  const std::size_t count = at(body.m_nodes.size());
+  const std::size_t count = wetcloth::index(body.m_nodes.size());
   state.positions.resize(count);
   state.speed.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -137,7 +136,10 @@ void takeStretch(const btSoftBody& body, const ClothShape& shape, const std::vec
   state.stretch.assign(state.positions.size(), 0);
   for (std::size_t i = 0; i < shape.links.size(); ++i) {
     const float stretch = distance(body, shape.links[i]) / std::max(restLengths[i], 1e-12F);
-    for (const int node : shape.links[i]) state.stretch[at(node)] = std::max(state.stretch[at(node)], stretch);
+    for (const int node : shape.links[i]) {
+      float& most = state.stretch[wetcloth::index(node)];
+      most = std::max(most, stretch);
+    }
   }
 }
 

@@ -28,7 +28,7 @@ std::optional<wetcloth::AuditTotals> sumOf(const std::vector<wetcloth::Collision
 }
 
 /// To a tenth of a gram, and no "-0.0" for what rounding has left below nothing.
-double grams(double kilograms) {
+double tenthsOfGrams(double kilograms) {
   const double tenths = std::round(1e4 * kilograms);
   return tenths == 0 ? 0 : tenths / 10;
 }
@@ -121,8 +121,8 @@ nlohmann::ordered_json RunReport::json() const {
 std::string RunReport::waterLines() const {
   char text[240];
   std::snprintf(text, sizeof text, "%-15s%.1f g held = %.1f initial + %.1f absorbed - %.1f dripped - %.1f evaporated\n",
-                "water", grams(m_ledger.held), grams(m_ledger.initial), grams(m_ledger.absorbed),
-                grams(m_ledger.dripped), grams(m_ledger.evaporated));
+                "water", tenthsOfGrams(m_ledger.held), tenthsOfGrams(m_ledger.initial),
+                tenthsOfGrams(m_ledger.absorbed), tenthsOfGrams(m_ledger.dripped), tenthsOfGrams(m_ledger.evaporated));
   std::string lines = text + m_drips.line();
   if (m_ledger.runOff > 0) {
     std::snprintf(text, sizeof text, "%-15s%.3g g struck the cloth and were not taken in\n", "run-off",

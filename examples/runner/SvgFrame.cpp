@@ -94,7 +94,7 @@ std::string svgShadows(const SceneWorld& world, const Plane& ground, const Camer
   return "<path d=\"" + path + "\" fill=\"#1d2733\" fill-opacity=\".30\" filter=\"url(#soft)\"/>\n";
 }
 
-std::string escaped(const std::string& text) {
+std::string escapedXml(const std::string& text) {
   std::string safe;
   for (const char character : text) {
     if (character == '<') {
@@ -113,7 +113,7 @@ std::string svgCaption(const Scene& scene, const FrameShot& shot) {
   std::snprintf(state, sizeof state, "t = %.2f s, saturation %.0f %%", shot.time, 100 * shot.meanSaturation);
   return "<g font-family=\"Helvetica, Arial, sans-serif\" font-size=\"19\" fill=\"#33404d\">\n"
          "<text x=\"28\" y=\"694\">" +
-         escaped(scene.name) + "</text>\n<text x=\"932\" y=\"694\" text-anchor=\"end\">" + state + "</text>\n</g>\n";
+         escapedXml(scene.name) + "</text>\n<text x=\"932\" y=\"694\" text-anchor=\"end\">" + state + "</text>\n</g>\n";
 }
 
 /// The ground fades into the background at the horizon, which is at `horizon` pixels from the top.

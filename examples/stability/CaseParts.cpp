@@ -43,6 +43,12 @@ HardCase everywhere(std::string name, std::string group, std::string about) {
   return hardCase;
 }
 
+double freeMass(const btSoftBody& body) {
+  double mass = 0;
+  for (const double one : obvious::massesOf(body)) mass += one;
+  return mass;
+}
+
 double windForce(double speed, double area) {
   const wetcloth::Wind::Parameters defaults;
   return 0.5 * defaults.airDensity * defaults.dragCoefficient * area * speed * speed;

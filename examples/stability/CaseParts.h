@@ -25,6 +25,9 @@ wetcloth::ClothPatch levelCloth(double height, int nodes = kNodes);
 /// A case in every world with a cloth that air and water act on.
 HardCase everywhere(std::string name, std::string group, std::string about);
 
+/// Mass of all nodes that are free [kg].
+double freeMass(const btSoftBody& body);
+
 /// Force of air of this speed [m/s] that strikes an area [m^2] broadside [N], by Wind's defaults.
 double windForce(double speed, double area = 1);
 

@@ -17,12 +17,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-double freeMass(const btSoftBody& body) {
-  double mass = 0;
-  for (const double one : obvious::massesOf(body)) mass += one;
-  return mass;
-}
-
 wetcloth::ClothPatch clothWithPins(std::vector<int> pins) {
   wetcloth::ClothPatch patch = uprightCloth();
   patch.pinnedNodes = std::move(pins);

@@ -13,12 +13,6 @@ namespace {
 
 constexpr double kRounding = sizeof(btScalar) == sizeof(double) ? 2.3e-16 : 1.2e-7;
 
-double freeMass(const btSoftBody& body) {
-  double mass = 0;
-  for (const double one : obvious::massesOf(body)) mass += one;
-  return mass;
-}
-
 /// A hanging cloth in the weather for half of the time, then in still air.
 Script inTheWeather(CaseScene& scene, btSoftBody& body, double capacity) {
   scene.limits.source = 10.2;
