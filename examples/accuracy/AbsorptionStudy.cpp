@@ -12,15 +12,14 @@
 namespace accuracy {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double duration = 8;
-constexpr int side = 16;
+constexpr double cycleDuration = 8;
+constexpr int specimenSide = 16;
 
 // Exposure that changes in time, as of a cloth that is dipped and lifted: e(t) = (1 - cos(2 pi t / 8 s)) / 2.
-double exposureAt(double time) { return 0.5 - 0.5 * std::cos(2 * pi * time / duration); }
+double exposureAt(double time) { return 0.5 - 0.5 * std::cos(2 * pi * time / cycleDuration); }
 /// Its integral from 0 [s].
 double exposureUntil(double time) {
-  return 0.5 * time - 0.5 * duration / (2 * pi) * std::sin(2 * pi * time / duration);
+  return 0.5 * time - 0.5 * cycleDuration / (2 * pi) * std::sin(2 * pi * time / cycleDuration);
 }
 
 /// The classical fourth-order Runge-Kutta step of dw/dt = e(t) (C - w) / theta, which the library has no need of: to
@@ -52,7 +51,7 @@ class RungeKuttaAbsorption : public wetcloth::Effect {
 
 Specimen makeSpecimen() {
   Specimen::Settings settings;
-  settings.patch = levelSquare(1, side);
+  settings.patch = levelSquare(1, specimenSide);
   settings.fabric = wetcloth::Fabric::coarseWool();
   return Specimen(settings);
 }
@@ -67,7 +66,7 @@ double asSeen(double dt) { return static_cast<double>(btScalar(dt)); }
 /// Steps through the whole time. @param before  called before each step with its start [s]
 template <class Before>
 Outcome soak(Specimen& specimen, double dt, Before before) {
-  const int steps = static_cast<int>(std::lround(duration / dt));
+  const int steps = static_cast<int>(std::lround(cycleDuration / dt));
   Outcome outcome{{0}, 0};
   for (int i = 0; i < steps; ++i) {
     const double start = runner::processorTime();
@@ -75,7 +74,7 @@ Outcome soak(Specimen& specimen, double dt, Before before) {
     specimen.substepOfOurs(dt);
     outcome.seconds += runner::processorTime() - start;
     const double miss =
-        std::fabs(specimen.cloth().saturation(0) - closedForm((i + 1) * asSeen(dt))) / closedForm(duration);
+        std::fabs(specimen.cloth().saturation(0) - closedForm((i + 1) * asSeen(dt))) / closedForm(cycleDuration);
     outcome.errors[0] = std::max(outcome.errors[0], miss);
   }
   return outcome;
@@ -100,8 +99,8 @@ void addCurve(Plan& plan, const std::string& method, const std::vector<double>& 
               const std::function<Outcome(double dt)>& run) {
   Setting curve;
   curve.method = method;
-  curve.nodes = side * side;
-  curve.simulatedSeconds = duration;
+  curve.nodes = specimenSide * specimenSide;
+  curve.simulatedSeconds = cycleDuration;
   addSteps(plan, curve, steps, run);
 }
 

@@ -92,6 +92,7 @@ std::vector<Study> studyPair(Pair pair, const std::string& word, const std::stri
   Plan plan;
   plan.knob = "tolerance";
   plan.timed = "one query";
+  plan.work = Work::queries;
   plan.measures = {{"collision_missed_" + word, "Missed contacts of " + kind + ", " + count + " queries",
                     "false negatives, of the queries that meet", "exact answers in rational numbers"},
                    {"collision_alarms_" + word, "False alarms of " + kind + ", " + count + " queries",

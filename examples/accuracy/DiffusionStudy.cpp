@@ -12,12 +12,11 @@ namespace {
 
 using Method = wetcloth::Diffusion::Method;
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double duration = 5;
-constexpr double diffusivity = 0.01;  // [m^2/s]: the longest wave of a cloth of 1 m falls to 0.61 in that time
+constexpr double waveDuration = 5;
+constexpr double waveDiffusivity = 0.01;  // [m^2/s]: the longest wave of a cloth of 1 m falls to 0.61 in that time
 
 /// The longest wave between two edges that nothing crosses: s = 1/2 + 0.4 cos(pi x) exp(-D pi^2 t), x in [0, 1] m.
-double waveAt(double x, double time) { return 0.4 * std::cos(pi * x) * std::exp(-diffusivity * pi * pi * time); }
+double waveAt(double x, double time) { return 0.4 * std::cos(pi * x) * std::exp(-waveDiffusivity * pi * pi * time); }
 
 void setWave(Specimen& specimen) {
   wetcloth::WetCloth& cloth = specimen.cloth();
@@ -34,10 +33,10 @@ double waveError(Specimen& specimen) {
   double sum = 0;
   for (int i = 0; i < specimen.cloth().nodeCount(); ++i) {
     const double x = static_cast<double>(specimen.body().m_nodes[i].m_x.x());
-    const double miss = specimen.cloth().saturation(i) - 0.5 - waveAt(x, duration);
+    const double miss = specimen.cloth().saturation(i) - 0.5 - waveAt(x, waveDuration);
     sum += miss * miss;
   }
-  return std::sqrt(sum / specimen.nodes()) / waveAt(0, duration);
+  return std::sqrt(sum / specimen.nodes()) / waveAt(0, waveDuration);
 }
 
 Outcome flatten(Method method, int side, double dt) {
@@ -45,12 +44,12 @@ Outcome flatten(Method method, int side, double dt) {
   settings.patch = levelSquare(1, side);
   Specimen specimen(settings);
   wetcloth::Diffusion::Parameters parameters;
-  parameters.warpDiffusivity = parameters.weftDiffusivity = diffusivity;
+  parameters.warpDiffusivity = parameters.weftDiffusivity = waveDiffusivity;
   parameters.exponent = 0;
   parameters.method = method;
   specimen.cloth().add<wetcloth::Diffusion>(parameters);
   setWave(specimen);
-  const int steps = static_cast<int>(std::lround(duration / dt));
+  const int steps = static_cast<int>(std::lround(waveDuration / dt));
   const double start = runner::processorTime();
   for (int i = 0; i < steps; ++i) specimen.substepOfOurs(dt);
   const double seconds = runner::processorTime() - start;
@@ -63,8 +62,8 @@ Setting settingOf(const std::string& curve, const std::string& label, Method met
   setting.label = label;
   setting.knob = dt;
   setting.nodes = side * side;
-  setting.steps = duration / dt;
-  setting.simulatedSeconds = duration;
+  setting.steps = waveDuration / dt;
+  setting.simulatedSeconds = waveDuration;
   setting.run = [=] { return flatten(method, side, dt); };
   return setting;
 }

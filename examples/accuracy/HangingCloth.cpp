@@ -11,7 +11,7 @@
 namespace accuracy {
 namespace {
 
-constexpr int side = HangingCloth::side;
+constexpr int clothSide = HangingCloth::side;
 constexpr double arealDensity = 0.150;
 
 /// A row of the record, of points that are read by functions: position and velocity of node i along an axis, its mass.
@@ -22,12 +22,12 @@ void note(ClothRecord& record, double time, Position position, Velocity velocity
   double height = 0;
   double kinetic = 0;
   double lowest = 0;
-  for (int i = 0; i < side * side; ++i) {
+  for (int i = 0; i < clothSide * clothSide; ++i) {
     mass += massOf(i);
     across += massOf(i) * position(i, 0);
     height += massOf(i) * position(i, 1);
     for (int axis = 0; axis < 3; ++axis) kinetic += massOf(i) * velocity(i, axis) * velocity(i, axis) / 2;
-    if (i < side) lowest += position(i, 1) / side;
+    if (i < clothSide) lowest += position(i, 1) / clothSide;
   }
   record.times.push_back(time);
   record.across.push_back(across / mass);
@@ -64,7 +64,7 @@ std::vector<double> massesOf(btSoftBody& body, const wetcloth::WetCloth& cloth) 
 
 wetcloth::ClothPatch HangingCloth::patch() const {
   wetcloth::ClothPatch patch;
-  patch.columns = patch.rows = side;
+  patch.columns = patch.rows = clothSide;
   patch.edgeU = btVector3(0, 0, btScalar(length));
   // From the lower edge to the pinned one, which is at height 0.
   patch.origin = btVector3(btScalar(length * std::sin(angle)), btScalar(-length * std::cos(angle)), 0);
@@ -78,32 +78,32 @@ wetcloth::ClothPatch HangingCloth::patch() const {
 MassSpringReference HangingCloth::reference() const {
   std::vector<MassSpringReference::Point> points;
   std::vector<MassSpringReference::Spring> springs;
-  const double width = length / (side - 1);
+  const double width = length / (clothSide - 1);
   // A node has a third of its triangles; their diagonals all run one way, from (i, j) to (i + 1, j + 1).
   const auto triangles = [](int i, int j) {
     int count = 0;
-    if (i < side - 1 && j < side - 1) count += 2;
-    if (i > 0 && j < side - 1) count += 1;
-    if (i < side - 1 && j > 0) count += 1;
+    if (i < clothSide - 1 && j < clothSide - 1) count += 2;
+    if (i > 0 && j < clothSide - 1) count += 1;
+    if (i < clothSide - 1 && j > 0) count += 1;
     if (i > 0 && j > 0) count += 2;
     return count;
   };
-  for (int j = 0; j < side; ++j) {
-    for (int i = 0; i < side; ++i) {
+  for (int j = 0; j < clothSide; ++j) {
+    for (int i = 0; i < clothSide; ++i) {
       const double fall = length - j * width;  // below the pins, along the cloth
       MassSpringReference::Point point;
       point.position = {fall * std::sin(angle), -fall * std::cos(angle), i * width};
       point.mass = arealDensity * width * width / 2 * triangles(i, j) / 3;
-      point.isFixed = j == side - 1;
+      point.isFixed = j == clothSide - 1;
       points.push_back(point);
     }
   }
   const auto add = [&](int i, int j, int di, int dj, double stiffnessOfKind) {
-    if (i + di < 0 || i + di >= side || j + dj >= side) return;
-    springs.push_back({j * side + i, (j + dj) * side + i + di, width * std::hypot(di, dj), stiffnessOfKind});
+    if (i + di < 0 || i + di >= clothSide || j + dj >= clothSide) return;
+    springs.push_back({j * clothSide + i, (j + dj) * clothSide + i + di, width * std::hypot(di, dj), stiffnessOfKind});
   };
-  for (int j = 0; j < side; ++j) {
-    for (int i = 0; i < side; ++i) {
+  for (int j = 0; j < clothSide; ++j) {
+    for (int i = 0; i < clothSide; ++i) {
       add(i, j, 1, 0, stiffness);
       add(i, j, 0, 1, stiffness);
       add(i, j, 1, 1, stiffness);

@@ -16,11 +16,10 @@ namespace {
 
 // A strip that soaks at one end and wicks along: ds/dt = e(x) (1 - s) / theta + D s_xx, dry at first. On the chain of
 // nodes that the strip's mesh is, both parts and their sum have closed forms, so that what is left is the splitting.
-constexpr double pi = 3.14159265358979323846;
-constexpr int chain = 33;             // nodes along the strip of 1 m
-constexpr double duration = 4;        // [s]
-constexpr double theta = 2;           // time constant of absorption [s]
-constexpr double diffusivity = 0.02;  // [m^2/s]
+constexpr int chain = 33;                  // nodes along the strip of 1 m
+constexpr double chainDuration = 4;        // [s]
+constexpr double theta = 2;                // time constant of absorption [s]
+constexpr double chainDiffusivity = 0.02;  // [m^2/s]
 
 double exposureAt(int node) { return 0.5 + 0.5 * std::cos(pi * node / (chain - 1)); }
 
@@ -46,7 +45,7 @@ class Exponential {
 
 /// D s_xx on the chain, with edges that nothing crosses.
 Eigen::MatrixXd laplacian() {
-  const double scale = diffusivity * (chain - 1) * (chain - 1);
+  const double scale = chainDiffusivity * (chain - 1) * (chain - 1);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(chain, chain);
   for (int i = 0; i < chain; ++i) {
     const double share = i == 0 || i == chain - 1 ? 2 : 1;
@@ -68,7 +67,7 @@ Eigen::VectorXd closedForm() {
   Eigen::MatrixXd matrix = laplacian();
   for (int i = 0; i < chain; ++i) matrix(i, i) -= exposureAt(i) / theta;
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(chain);
-  return ones - Exponential(matrix).at(duration) * ones;
+  return ones - Exponential(matrix).at(chainDuration) * ones;
 }
 
 double largestError(const Eigen::VectorXd& saturation) {
@@ -81,7 +80,7 @@ Outcome splitExactly(bool strang, double dt) {
   Eigen::VectorXd s = Eigen::VectorXd::Zero(chain);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(chain);
   const double start = runner::processorTime();
-  for (int i = 0; i < std::lround(duration / dt); ++i) {
+  for (int i = 0; i < std::lround(chainDuration / dt); ++i) {
     s += soak.cwiseProduct(ones - s);
     s = (wick * s).eval();
     if (strang) s += soak.cwiseProduct(ones - s);
@@ -131,12 +130,12 @@ Outcome splitByTheLibrary(bool strang, double dt) {
   const double share = strang ? 0.5 : 1;
   cloth.add(std::make_unique<PartOfStep>(makeAbsorption(), wetcloth::Stage::sources, share));
   wetcloth::Diffusion::Parameters diffusion;
-  diffusion.warpDiffusivity = diffusion.weftDiffusivity = diffusivity;
+  diffusion.warpDiffusivity = diffusion.weftDiffusivity = chainDiffusivity;
   diffusion.exponent = 0;
   cloth.add<wetcloth::Diffusion>(diffusion);
   if (strang) cloth.add(std::make_unique<PartOfStep>(makeAbsorption(), wetcloth::Stage::losses, share));
   const double start = runner::processorTime();
-  for (int i = 0; i < std::lround(duration / dt); ++i) specimen.substepOfOurs(dt);
+  for (int i = 0; i < std::lround(chainDuration / dt); ++i) specimen.substepOfOurs(dt);
   const double seconds = runner::processorTime() - start;
   Eigen::VectorXd s(chain);
   for (int i = 0; i < chain; ++i) s(i) = cloth.saturation(i);
@@ -148,7 +147,7 @@ void addCurve(Plan& plan, const std::string& method, bool isCompared, const std:
   Setting curve;
   curve.method = method;
   curve.nodes = isCompared ? 2 * chain : chain;
-  curve.simulatedSeconds = duration;
+  curve.simulatedSeconds = chainDuration;
   curve.isCompared = isCompared;
   addSteps(plan, curve, steps, run);
 }

@@ -8,6 +8,8 @@
 
 namespace accuracy {
 
+inline constexpr double pi = 3.14159265358979323846;
+
 /// Absorption: forward Euler, RK4 and the exact law, under an exposure that changes in time.
 std::vector<Study> studyAbsorption(const Effort& effort, const TellProgress& tell);
 /// Diffusion: explicit, factored, conjugate gradients; the step and the mesh.

@@ -99,6 +99,7 @@ std::vector<Study> carryOut(const Plan& plan, const Effort& effort, const TellPr
     study.measure = plan.measures[measure];
     study.knob = plan.knob;
     study.timed = plan.timed;
+    study.work = plan.work;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       study.points.push_back(pointOf(plan.settings[i], runs[i].errors.at(measure), median(runs[i].seconds)));
     }

@@ -42,10 +42,14 @@ struct Measure {
   double referenceError = 0;  ///< of the reference itself, by Richardson's extrapolation; 0: a closed form
 };
 
+/// What a run does over and over, and its time is told by.
+enum class Work { nodeSteps, queries };
+
 /// Settings to run, and what to measure of each run.
 struct Plan {
   std::string knob;
   std::string timed;  ///< what the time counts
+  Work work = Work::nodeSteps;
   std::vector<Measure> measures;
   std::vector<Setting> settings;
 };
@@ -90,6 +94,7 @@ struct Study {
   Measure measure;
   std::string knob;
   std::string timed;
+  Work work = Work::nodeSteps;
   std::vector<Point> points;
   std::vector<Order> orders;  ///< of the methods that have enough points for one
   std::string advice;         ///< one sentence

@@ -43,6 +43,17 @@ nlohmann::ordered_json jsonOf(const Point& point) {
   return json;
 }
 
+/// Headings of the two times of a point: of a query there is one.
+struct TimeHeadings {
+  const char* step;
+  const char* second;
+};
+
+TimeHeadings headingsOf(const Study& study) {
+  if (study.work == Work::queries) return {"ns per query", "us per query"};
+  return {"ns per node and step", "us per node and simulated second"};
+}
+
 /// From the fastest to the most accurate.
 std::vector<Point> frontOf(const Study& study) {
   std::vector<Point> front;
@@ -84,11 +95,12 @@ std::string textOf(const Study& study) {
   std::string text = study.measure.name + ": " + study.measure.title + "\n  error: " + study.measure.error +
                      "\n  against: " + referenceText(study.measure) + "\n  timed: " + study.timed + "\n";
   char line[320];
-  std::snprintf(line, sizeof line, "  %-*s  %10s  %14s  %18s\n", static_cast<int>(width), "setting", "error",
-                "ns/node/step", "us/node/simulated s");
+  const TimeHeadings headings = headingsOf(study);
+  std::snprintf(line, sizeof line, "  %-*s  %10s  %20s  %32s\n", static_cast<int>(width), "setting", "error",
+                headings.step, headings.second);
   text += line;
   for (const Point& point : study.points) {
-    std::snprintf(line, sizeof line, "  %-*s  %10s  %14.1f  %18.3g  %s\n", static_cast<int>(width),
+    std::snprintf(line, sizeof line, "  %-*s  %10s  %20.1f  %32.3g  %s\n", static_cast<int>(width),
                   point.name().c_str(), errorText(point.error).c_str(), point.nanosecondsPerNodeStep,
                   point.microsecondsPerNodeSecond, point.isOnFront ? "front" : "");
     text += line;
@@ -100,11 +112,12 @@ std::string textOf(const Study& study) {
 std::string markdownOf(const Study& study, const std::string& picture) {
   // What is no curve is short, and is read as a whole.
   const bool isTable = study.knob == "none" || study.knob == "precision";
+  const TimeHeadings headings = headingsOf(study);
   std::string text = "### " + study.measure.name + ": " + study.measure.title + "\n\n";
   if (!picture.empty()) text += "![" + study.measure.title + "](" + picture + ")\n\n";
   text += "Error: " + study.measure.error + ". Against: " + referenceText(study.measure) + ". Timed: " + study.timed +
-          ".\n\n| " + (isTable ? "setting" : "on the front") +
-          " | error | ns per node and step | us per node and simulated second |\n|---|---|---|---|\n";
+          ".\n\n| " + (isTable ? "setting" : "on the front") + " | error | " + headings.step + " | " + headings.second +
+          " |\n|---|---|---|---|\n";
   char line[320];
   for (const Point& point : isTable ? study.points : frontOf(study)) {
     std::snprintf(line, sizeof line, "| %s | %s | %.1f | %.3g |\n", point.name().c_str(),

@@ -18,7 +18,7 @@ using Wind = wetcloth::Wind;
 // --- a level sheet that falls -----------------------------------------------------------------------------------
 
 constexpr double gravity = 9.81;
-constexpr double fallDuration = 1;
+constexpr double sheetDuration = 1;
 constexpr int fallSide = 12;
 constexpr double voile = 0.030;  // a light cloth [kg/m^2]: the air stops it within a tenth of a second
 constexpr double airDensity = 1.225;
@@ -53,7 +53,7 @@ Outcome fallInAir(Wind::Law law, Wind::Integration integration, double dt) {
   specimen.cloth().add<Wind>(stillAir(law, integration));
   const btSoftBody::Node& middle = specimen.body().m_nodes[fallSide * fallSide / 2 + fallSide / 2];
   Outcome outcome{{0}, 0};
-  for (int i = 1; i <= std::lround(fallDuration / dt); ++i) {
+  for (int i = 1; i <= std::lround(sheetDuration / dt); ++i) {
     const double start = runner::processorTime();
     specimen.substep(dt);
     outcome.seconds += runner::processorTime() - start;
@@ -145,7 +145,7 @@ std::vector<Study> studyFall(Wind::Law law, const char* name, const Effort& effo
        "largest error of the speed at any step, of the terminal speed",
        law == Wind::Law::linear ? "closed form g tau (1 - exp(-t / tau))" : "closed form v tanh(g t / v)"}};
   for (const Integrator& integrator : integrators) {
-    addCurve(plan, integrator.name, fallSide, fallDuration, steps,
+    addCurve(plan, integrator.name, fallSide, sheetDuration, steps,
              [law, integrator](double dt) { return fallInAir(law, integrator.integration, dt); });
   }
   return carryOut(plan, effort, tell);
