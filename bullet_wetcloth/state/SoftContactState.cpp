@@ -50,7 +50,7 @@ auto namesNodeAndFace(const btSoftBody& body, const SoftBodyArray& bodies) {
 
 void transferInfo(StateArchive& archive, btSoftBody::sCti& info) {
   archive.object(info.m_colObj);
-  archive.value(info.m_normal, info.m_offset, info.m_bary);
+  archive.value(info.m_normal, info.m_offset);  // Bullet neither writes nor reads m_bary of this
 }
 
 void transferRigid(StateArchive& archive, btSoftBody::DeformableRigidContact& contact) {
@@ -64,7 +64,8 @@ void transferPositionBased(StateArchive& archive, btSoftBody& body, const SoftBo
   const auto transferRigid = [&](Rigid& contact) {
     transferInfo(archive, contact.m_cti);
     transferNodePointer(archive, body.m_nodes, contact.m_node);
-    archive.value(contact.m_c0, contact.m_c1, contact.m_c2, contact.m_c3, contact.m_c4, contact.t1, contact.t2);
+    // t1 and t2 are set for the links of multibodies only, and anew in each step before they are read.
+    archive.value(contact.m_c0, contact.m_c1, contact.m_c2, contact.m_c3, contact.m_c4);
   };
   archive.growing(body.m_rcontacts, transferRigid, namesNode<Rigid>(body));
   using Soft = btSoftBody::SContact;

@@ -5,7 +5,10 @@
 namespace wetcloth_test {
 namespace {
 
-using namespace state_scene;
+using state_scene::Case;
+using state_scene::refusal;
+using state_scene::StateScene;
+using state_scene::Story;
 
 class Counting : public wetcloth::Effect {
  public:

@@ -9,7 +9,10 @@
 namespace wetcloth_test {
 namespace {
 
-using namespace state_scene;
+using state_scene::Case;
+using state_scene::refusal;
+using state_scene::StateScene;
+using state_scene::Story;
 
 constexpr std::size_t kEnvelope = 48;  // bytes before the state itself
 const Case kCase = {WorldKind::softRigid, Story::onRigid};

@@ -6,7 +6,10 @@
 namespace wetcloth_test {
 namespace {
 
-using namespace state_scene;
+using state_scene::Case;
+using state_scene::sameNumbers;
+using state_scene::StateScene;
+using state_scene::Story;
 
 constexpr int kStepsAfter = 50;
 

@@ -20,7 +20,13 @@
 
 namespace state_scene {
 
-using namespace wetcloth_test;
+namespace core = wetcloth_test::core;
+using wetcloth_test::BulletWorld;
+using wetcloth_test::contactFlags;
+using wetcloth_test::kEarthGravity;
+using wetcloth_test::kMargin;
+using wetcloth_test::levelPatch;
+using wetcloth_test::WorldKind;
 
 enum class Story { hanging, onRigid, onPile, clothOnCloth, sleeping };
 
