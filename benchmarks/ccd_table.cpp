@@ -4,7 +4,7 @@
 #include <bullet_wetcloth/collision/ContinuousCheck.h>
 #include <bullet_wetcloth/collision/NewtonCheck.h>
 #include <bullet_wetcloth/collision/TextbookCheck.h>
-#include <examples/runner/BulletCheck.h>
+#include <command/ccd/BulletCheck.h>
 #include <tests/support/QueryData.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // step. `ratio` is the whole step over that of a plain cloth, the two taking turns so that a machine whose speed
 // drifts slows both; cloths that move differently also cost Bullet differently, so it can lie on either side of it.
 
-#include "BenchCloth.h"
+#include "benchmarks/BenchCloth.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,6 +1,6 @@
 // The parts of a step one by one, with warm caches, beside what Bullet takes for the same.
 
-#include "BenchCloth.h"
+#include "benchmarks/BenchCloth.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 // Filling a vertex buffer: ours with positions, normals, colour and roughness, and the same two that Bullet's own copy
 // has, against that copy, in turns.
 
-#include "BenchCloth.h"
+#include "benchmarks/BenchCloth.h"
 
 #include <BulletSoftBody/btDefaultSoftBodySolver.h>
 

@@ -1,6 +1,6 @@
 // Our wind per triangle against Bullet's own addAeroForceToFace on the same cloth, in turns.
 
-#include "BenchCloth.h"
+#include "benchmarks/BenchCloth.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,9 +1,9 @@
 #include "bullet_wetcloth/WetCloth.h"
 
-#include "bullet_wetcloth/DryMass.h"
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/state/StateArchive.h"
+#include "bullet_wetcloth/water/DryMass.h"
 
 #include <algorithm>
 #include <cmath>

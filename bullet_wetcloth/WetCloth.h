@@ -2,10 +2,10 @@
 
 #include "bullet_wetcloth/Effect.h"
 #include "bullet_wetcloth/Fabric.h"
-#include "bullet_wetcloth/NodeMasses.h"
-#include "bullet_wetcloth/Water.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
 #include "bullet_wetcloth/shading/Colour.h"
+#include "bullet_wetcloth/water/NodeMasses.h"
+#include "bullet_wetcloth/water/Water.h"
 
 #include <BulletSoftBody/btSoftBody.h>
 

@@ -1,7 +1,7 @@
 #include "bullet_wetcloth/WetClothWorld.h"
 
 #include "bullet_wetcloth/Require.h"
-#include "bullet_wetcloth/SubstepHook.h"
+#include "bullet_wetcloth/bullet/SubstepHook.h"
 #include "bullet_wetcloth/shading/DebugDraw.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 #include "bullet_wetcloth/state/StateEnvelope.h"

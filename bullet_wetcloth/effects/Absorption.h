@@ -2,7 +2,7 @@
 
 #include "bullet_wetcloth/Effect.h"
 #include "bullet_wetcloth/effects/Exposure.h"
-#include "bullet_wetcloth/effects/NodeUptake.h"
+#include "bullet_wetcloth/numerics/NodeUptake.h"
 
 #include <cstddef>
 

@@ -1,10 +1,10 @@
 #include "bullet_wetcloth/effects/Cling.h"
 
-#include "bullet_wetcloth/Contacts.h"
-#include "bullet_wetcloth/ImpulseMatrix.h"
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/WetClothWorld.h"
+#include "bullet_wetcloth/bullet/Contacts.h"
+#include "bullet_wetcloth/bullet/ImpulseMatrix.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Effect.h"
-#include "bullet_wetcloth/effects/WetnessCurve.h"
+#include "bullet_wetcloth/numerics/WetnessCurve.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 

@@ -3,8 +3,8 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/WetClothWorld.h"
-#include "bullet_wetcloth/effects/PassageFinder.h"
-#include "bullet_wetcloth/effects/SweptFaces.h"
+#include "bullet_wetcloth/audit/PassageFinder.h"
+#include "bullet_wetcloth/audit/SweptFaces.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <LinearMath/btIDebugDraw.h>

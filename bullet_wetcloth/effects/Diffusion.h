@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Effect.h"
-#include "bullet_wetcloth/Settling.h"
+#include "bullet_wetcloth/numerics/Settling.h"
 
 #include <LinearMath/btVector3.h>
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "bullet_wetcloth/Effect.h"
-#include "bullet_wetcloth/Settling.h"
-#include "bullet_wetcloth/Water.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
+#include "bullet_wetcloth/numerics/Settling.h"
+#include "bullet_wetcloth/water/Water.h"
 
 #include <LinearMath/btVector3.h>
 

@@ -1,10 +1,10 @@
 #include "bullet_wetcloth/effects/HookeSprings.h"
 
-#include "bullet_wetcloth/Index.h"
-#include "bullet_wetcloth/NodeIndex.h"
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
-#include "bullet_wetcloth/effects/SpringSolver.h"
+#include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/NodeIndex.h"
+#include "bullet_wetcloth/numerics/SpringSolver.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "bullet_wetcloth/Effect.h"
-#include "bullet_wetcloth/Settling.h"
-#include "bullet_wetcloth/effects/NodeUptake.h"
 #include "bullet_wetcloth/effects/WaterSurface.h"
+#include "bullet_wetcloth/numerics/NodeUptake.h"
+#include "bullet_wetcloth/numerics/Settling.h"
 
 #include <optional>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "bullet_wetcloth/Effect.h"
-#include "bullet_wetcloth/effects/DropCatcher.h"
-#include "bullet_wetcloth/effects/Shelter.h"
+#include "bullet_wetcloth/numerics/DropCatcher.h"
+#include "bullet_wetcloth/numerics/Shelter.h"
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {

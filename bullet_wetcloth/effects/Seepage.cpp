@@ -1,10 +1,10 @@
 #include "bullet_wetcloth/effects/Seepage.h"
 
-#include "bullet_wetcloth/Index.h"
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
-#include "bullet_wetcloth/effects/EdgeFlow.h"
+#include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/mesh/IntrinsicDelaunay.h"
+#include "bullet_wetcloth/numerics/EdgeFlow.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>

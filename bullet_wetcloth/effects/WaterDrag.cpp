@@ -2,7 +2,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
-#include "bullet_wetcloth/effects/FluidResistance.h"
+#include "bullet_wetcloth/numerics/FluidResistance.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>

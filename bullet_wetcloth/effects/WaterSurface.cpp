@@ -1,7 +1,7 @@
 #include "bullet_wetcloth/effects/WaterSurface.h"
 
-#include "bullet_wetcloth/Direction.h"
 #include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/numerics/Direction.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <string>

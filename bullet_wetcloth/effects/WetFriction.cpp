@@ -1,9 +1,9 @@
 #include "bullet_wetcloth/effects/WetFriction.h"
 
-#include "bullet_wetcloth/Contacts.h"
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/WetClothWorld.h"
+#include "bullet_wetcloth/bullet/Contacts.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>

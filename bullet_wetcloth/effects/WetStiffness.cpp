@@ -1,9 +1,9 @@
 #include "bullet_wetcloth/effects/WetStiffness.h"
 
-#include "bullet_wetcloth/Index.h"
-#include "bullet_wetcloth/NodeIndex.h"
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/NodeIndex.h"
 #include "bullet_wetcloth/effects/HookeSprings.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 

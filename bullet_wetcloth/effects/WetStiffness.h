@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Effect.h"
-#include "bullet_wetcloth/effects/LinkSaturation.h"
+#include "bullet_wetcloth/numerics/LinkSaturation.h"
 
 #include <LinearMath/btVector3.h>
 

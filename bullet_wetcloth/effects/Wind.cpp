@@ -1,11 +1,11 @@
 #include "bullet_wetcloth/effects/Wind.h"
 
-#include "bullet_wetcloth/DryMass.h"
-#include "bullet_wetcloth/NodeIndex.h"
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
-#include "bullet_wetcloth/effects/FluidResistance.h"
+#include "bullet_wetcloth/bullet/NodeIndex.h"
+#include "bullet_wetcloth/numerics/FluidResistance.h"
 #include "bullet_wetcloth/state/StateArchive.h"
+#include "bullet_wetcloth/water/DryMass.h"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 #include "bullet_wetcloth/mesh/ClothPatch.h"
 
-#include "bullet_wetcloth/DryMass.h"
 #include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/water/DryMass.h"
 
 #include <cstddef>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 #include "bullet_wetcloth/mesh/IntrinsicDelaunay.h"
 
-#include "bullet_wetcloth/Index.h"
+#include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/mesh/TriangleArea.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "bullet_wetcloth/mesh/RestMesh.h"
 
-#include "bullet_wetcloth/NodeIndex.h"
+#include "bullet_wetcloth/bullet/NodeIndex.h"
 #include "bullet_wetcloth/mesh/TriangleArea.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 

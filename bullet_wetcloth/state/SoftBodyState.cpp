@@ -1,6 +1,6 @@
 #include "bullet_wetcloth/state/SoftBodyState.h"
 
-#include "bullet_wetcloth/IndexIn.h"
+#include "bullet_wetcloth/bullet/IndexIn.h"
 #include "bullet_wetcloth/state/TreeState.h"
 
 #include <algorithm>

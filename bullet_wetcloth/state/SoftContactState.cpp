@@ -1,4 +1,4 @@
-#include "bullet_wetcloth/IndexIn.h"
+#include "bullet_wetcloth/bullet/IndexIn.h"
 #include "bullet_wetcloth/state/SoftBodyState.h"
 
 namespace wetcloth {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Command.h"
+#include "tests/command/Command.h"
 
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-#include "Command.h"
+#include "tests/command/Command.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "Command.h"
+#include "tests/command/Command.h"
 
 #include <bullet_wetcloth/collision/ContinuousCheck.h>
 

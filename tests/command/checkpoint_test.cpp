@@ -1,6 +1,6 @@
 // `wetcloth run --checkpoint` and `--resume`: a run that is cut short and goes on ends as if nothing had been.
 
-#include "Command.h"
+#include "tests/command/Command.h"
 
 #include <gtest/gtest.h>
 

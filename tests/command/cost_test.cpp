@@ -1,6 +1,6 @@
-#include "Command.h"
+#include "tests/command/Command.h"
 
-#include "examples/runner/SceneKeys.h"
+#include "command/scene/SceneKeys.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // `wetcloth plot`: the numbers in the tables, the pictures, and what is refused.
 
-#include "Command.h"
+#include "tests/command/Command.h"
 
 #include <gtest/gtest.h>
 

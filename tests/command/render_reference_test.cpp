@@ -1,4 +1,4 @@
-#include "RenderCheck.h"
+#include "tests/command/RenderCheck.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "Command.h"
-#include "RenderCheck.h"
+#include "tests/command/Command.h"
+#include "tests/command/RenderCheck.h"
 
 #include <gtest/gtest.h>
 

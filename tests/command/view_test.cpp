@@ -1,11 +1,11 @@
-#include "Command.h"
+#include "tests/command/Command.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <string>
 
-// What the window does is in tests/viewer.
+// What the window does is in tests/command/viewer.
 
 namespace wetcloth_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "WaterScene.h"
+#include "tests/command/WaterScene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Diffusion against closed forms: steps of its solver, an error function, a point source, the front of a wetted strip.
 
-#include "bullet_wetcloth/effects/DiffusionSolver.h"
+#include "bullet_wetcloth/numerics/DiffusionSolver.h"
 #include "tests/support/TransportScene.h"
 
 namespace wetcloth_test {

@@ -3,10 +3,10 @@
 // What is fuzzed, one function for each reader of bytes from outside; by libFuzzer (./dev fuzz), and with the kept
 // seeds by the tests.
 
-#include "examples/runner/Errors.h"
-#include "examples/runner/ObjReader.h"
-#include "examples/runner/QueryFile.h"
-#include "examples/runner/SceneReader.h"
+#include "command/ccd/QueryFile.h"
+#include "command/cli/Errors.h"
+#include "command/scene/ObjReader.h"
+#include "command/scene/SceneReader.h"
 #include "tests/fuzz/Input.h"
 #include "tests/fuzz/SmallWorld.h"
 

@@ -3,9 +3,9 @@
 // --write stores the hashes instead. Exit status 0: as stored; 1: not so; 77: not so, but neither are the compiler and
 // the C library those of the stored ones, and so there is nothing to compare.
 
-#include "examples/runner/SceneReader.h"
-#include "examples/runner/SceneWorld.h"
-#include "examples/runner/StateHash.h"
+#include "command/run/StateHash.h"
+#include "command/scene/SceneReader.h"
+#include "command/scene/SceneWorld.h"
 
 #include "bullet_wetcloth/state/StateHash.h"
 

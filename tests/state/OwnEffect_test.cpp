@@ -1,6 +1,6 @@
 // An effect of the application's own takes part by naming what it remembers.
 
-#include "StateScene.h"
+#include "tests/state/StateScene.h"
 
 namespace wetcloth_test {
 namespace {

@@ -1,6 +1,6 @@
 // What cannot be restored is refused with a message that says why, and nothing of the world has changed by then.
 
-#include "StateScene.h"
+#include "tests/state/StateScene.h"
 
 #include "bullet_wetcloth/state/StateEnvelope.h"
 

@@ -1,7 +1,7 @@
 // A run that is saved at any step and restored into a world that was built anew goes on bit for bit as the run that
 // nobody touched.
 
-#include "StateScene.h"
+#include "tests/state/StateScene.h"
 
 namespace wetcloth_test {
 namespace {

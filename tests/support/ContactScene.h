@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_wetcloth/Contacts.h"
+#include "bullet_wetcloth/bullet/Contacts.h"
 #include "bullet_wetcloth/effects/Cling.h"
 #include "bullet_wetcloth/effects/ContactWetting.h"
 #include "bullet_wetcloth/effects/WetFriction.h"

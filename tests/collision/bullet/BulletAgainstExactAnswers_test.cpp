@@ -5,7 +5,7 @@
 // The counts are those of Debian's libbullet-dev 3.24 on x86-64 (SSE arithmetic, `long double` of 64 bits).
 
 #include "bullet_wetcloth/collision/ContinuousCheck.h"
-#include "examples/runner/BulletCheck.h"
+#include "command/ccd/BulletCheck.h"
 #include "tests/support/QueryData.h"
 
 #include <BulletSoftBody/poly34.h>

@@ -2,7 +2,7 @@
 // is odd about its parts. All of these pin what plain Bullet does: a failure means that Bullet changed, and that
 // docs/ccd.md is to be updated.
 
-#include "examples/runner/BulletCheck.h"
+#include "command/ccd/BulletCheck.h"
 #include "tests/support/BulletWorld.h"
 
 #include <BulletSoftBody/poly34.h>

@@ -1,0 +1,136 @@
+#include "bullet_wetcloth/bullet/SubstepHook.h"
+
+#include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/WetClothWorld.h"
+
+#include <map>
+#include <mutex>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+// The slots are protected and have no getter; a pointer to member named through a derived class may reach them.
+struct Slots : btDynamicsWorld {
+  static btInternalTickCallback& of(btDynamicsWorld& world, SubstepHook::Slot slot) {
+    return slot == SubstepHook::Slot::preTick ? world.*(&Slots::m_internalPreTickCallback)
+                                              : world.*(&Slots::m_internalTickCallback);
+  }
+};
+
+// What we know of one slot.
+struct Shared {
+  btInternalTickCallback applicationCallback = nullptr;
+  bool isRunning = false;  // a callback that was put on top of ours and calls it must not make a circle
+};
+
+struct Entry {
+  WetClothWorld* wetWorld = nullptr;
+  Shared preTick;
+  Shared tick;
+  Shared& of(SubstepHook::Slot slot) { return slot == SubstepHook::Slot::preTick ? preTick : tick; }
+};
+
+// Takes itself back when an application's callback throws.
+class RunningMark {
+ public:
+  explicit RunningMark(bool& isRunning) : m_isRunning(isRunning) { m_isRunning = true; }
+  ~RunningMark() { m_isRunning = false; }
+  RunningMark(const RunningMark&) = delete;
+  RunningMark& operator=(const RunningMark&) = delete;
+
+ private:
+  bool& m_isRunning;
+};
+
+// Worlds may live in threads of their own.
+std::mutex& registryMutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+// A map: its entries stay where they are while others come and go.
+std::map<btDynamicsWorld*, Entry>& registry() {
+  static std::map<btDynamicsWorld*, Entry> entries;
+  return entries;
+}
+
+Entry* findEntry(btDynamicsWorld* world) {
+  const std::lock_guard<std::mutex> lock(registryMutex());
+  const auto found = registry().find(world);
+  return found == registry().end() ? nullptr : &found->second;
+}
+
+void onPreTick(btDynamicsWorld* world, btScalar dt) {
+  Entry* const entry = findEntry(world);
+  if (!entry || entry->preTick.isRunning) return;
+  const RunningMark mark(entry->preTick.isRunning);
+  if (entry->preTick.applicationCallback) entry->preTick.applicationCallback(world, dt);
+  if (entry->wetWorld) entry->wetWorld->preTick(dt);
+}
+
+void onTick(btDynamicsWorld* world, btScalar dt) {
+  Entry* const entry = findEntry(world);
+  if (!entry || entry->tick.isRunning) return;
+  const RunningMark mark(entry->tick.isRunning);
+  if (entry->tick.applicationCallback) entry->tick.applicationCallback(world, dt);
+  if (entry->wetWorld) entry->wetWorld->tick(dt);
+}
+
+btInternalTickCallback ours(SubstepHook::Slot slot) { return slot == SubstepHook::Slot::preTick ? onPreTick : onTick; }
+
+void putBack(btDynamicsWorld& world, Entry& entry, SubstepHook::Slot slot) {
+  btInternalTickCallback& callback = Slots::of(world, slot);
+  if (callback == ours(slot)) callback = entry.of(slot).applicationCallback;
+}
+
+// Whether somebody took the slot after us, and may call us to reach the application's callback.
+bool mayStillBeCalled(btDynamicsWorld& world, Entry& entry, SubstepHook::Slot slot) {
+  const btInternalTickCallback applicationCallback = entry.of(slot).applicationCallback;
+  return applicationCallback && Slots::of(world, slot) != applicationCallback;
+}
+
+}  // namespace
+
+void SubstepHook::attach(WetClothWorld& wetWorld) {
+  const std::lock_guard<std::mutex> lock(registryMutex());
+  Entry& entry = registry()[&wetWorld.world()];
+  if (entry.wetWorld) reject("world", "has a WetClothWorld already");
+  entry.wetWorld = &wetWorld;
+}
+
+void SubstepHook::detach(WetClothWorld& wetWorld) {
+  btDynamicsWorld& world = wetWorld.world();
+  const std::lock_guard<std::mutex> lock(registryMutex());
+  const auto found = registry().find(&world);
+  if (found == registry().end()) return;
+  Entry& entry = found->second;
+  entry.wetWorld = nullptr;
+  putBack(world, entry, Slot::preTick);
+  putBack(world, entry, Slot::tick);
+  if (entry.preTick.isRunning || entry.tick.isRunning) return;  // by an application's callback: the entry is in use
+  if (mayStillBeCalled(world, entry, Slot::preTick) || mayStillBeCalled(world, entry, Slot::tick)) return;
+  registry().erase(found);
+}
+
+void SubstepHook::take(WetClothWorld& wetWorld, Slot slot) {
+  btDynamicsWorld& world = wetWorld.world();
+  const std::lock_guard<std::mutex> lock(registryMutex());
+  btInternalTickCallback& callback = Slots::of(world, slot);
+  if (callback == ours(slot)) return;
+  registry()[&world].of(slot).applicationCallback = callback;
+  callback = ours(slot);
+}
+
+void SubstepHook::giveBack(WetClothWorld& wetWorld, Slot slot) {
+  btDynamicsWorld& world = wetWorld.world();
+  const std::lock_guard<std::mutex> lock(registryMutex());
+  const auto found = registry().find(&world);
+  if (found != registry().end()) putBack(world, found->second, slot);
+}
+
+bool SubstepHook::isInPlace(btDynamicsWorld& world, Slot slot) { return Slots::of(world, slot) == ours(slot); }
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,98 @@
+#include "bullet_wetcloth/numerics/EdgeFlow.h"
+
+#include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/state/StateArchive.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+bool moveAlike(const btSoftBody& body) {
+  for (int i = 1; i < body.m_nodes.size(); ++i) {
+    if (!(body.m_nodes[i].m_v == body.m_nodes[0].m_v)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void EdgeFlow::reset(const RestMesh& mesh, std::vector<WeightedEdge> edges) {
+  m_edges = std::move(edges);
+  m_weights.clear();
+  for (const WeightedEdge& edge : m_edges) m_weights.push_back(edge.weight);
+  m_areas = mesh.nodeAreas();
+  m_capacity.assign(m_areas.size(), 0);
+  m_before.assign(m_areas.size(), 0);
+  m_held.assign(m_areas.size(), 0);
+  m_nodes.resize(m_areas.size());
+  m_limiter.reset(m_areas.size());
+  m_momentum.reset(m_areas.size(), m_edges);
+}
+
+bool EdgeFlow::load(const Water& water) {
+  bool changed = false;
+  for (std::size_t i = 0; i < m_held.size(); ++i) {
+    m_before[i] = m_held[i] = water.held(i);
+    changed = changed || m_capacity[i] != water.capacity(i);
+    m_capacity[i] = water.capacity(i);
+  }
+  if (changed) weighEdges();
+  return changed;
+}
+
+void EdgeFlow::weighEdges() {
+  for (std::size_t e = 0; e < m_edges.size(); ++e) {
+    const std::size_t a = index(m_edges[e].a);
+    const std::size_t b = index(m_edges[e].b);
+    const double areaPerCapacity = (m_areas[a] / m_capacity[a] + m_areas[b] / m_capacity[b]) / 2;
+    m_edges[e].weight = areaPerCapacity > 0 ? m_weights[e] / areaPerCapacity : 0;
+  }
+}
+
+// What load() reads again in each step is left out, but not whether the capacities will be found to have changed.
+void EdgeFlow::transferState(StateArchive& archive) {
+  archive.array(m_capacity);
+  archive.array(m_before);
+  archive.array(m_held);
+  if (archive.isRestoring()) weighEdges();
+}
+
+double EdgeFlow::moved() const {
+  double moved = 0;
+  for (std::size_t i = 0; i < m_held.size(); ++i) moved += std::max(m_before[i] - m_held[i], 0.0);
+  return moved;
+}
+
+void EdgeFlow::commit(WetCloth& cloth, const std::vector<double>& fluxes) {
+  if (m_held == m_before) return;
+  cloth.joinArrivals();
+  if (!moveAlike(cloth.body())) carryMomentum(cloth, fluxes);
+  cloth.water().redistribute(m_held);
+}
+
+void EdgeFlow::carryMomentum(WetCloth& cloth, const std::vector<double>& fluxes) {
+  btSoftBody& body = cloth.body();
+  const Water& water = cloth.water();
+  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+    const btSoftBody::Node& node = body.m_nodes[static_cast<int>(i)];
+    for (int c = 0; c < 3; ++c) m_nodes[i].velocity[index(c)] = static_cast<double>(node.m_v[c]);
+    m_nodes[i].mass = water.totalMass(i);
+    m_nodes[i].isFixed = node.m_im == 0;
+  }
+  m_momentum.apply(m_edges, fluxes, m_nodes);
+  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+    btSoftBody::Node& node = body.m_nodes[static_cast<int>(i)];
+    const auto change = [&](int c) {
+      return static_cast<btScalar>(m_nodes[i].velocity[index(c)] - static_cast<double>(node.m_v[c]));
+    };
+    cloth.push(node, btVector3(change(0), change(1), change(2)));
+  }
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

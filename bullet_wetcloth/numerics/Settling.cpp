@@ -1,0 +1,74 @@
+#include "bullet_wetcloth/numerics/Settling.h"
+
+#include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/state/StateArchive.h"
+
+#include <algorithm>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+constexpr double kQuiet = 1e-9;  // of the capacity, moved in a second
+constexpr int kPatience = 64;    // quiet steps before it settles
+// More than kPatience quiet steps of another effect: two that settle must not keep each other awake.
+constexpr double kDisturbed = 1e-7;
+constexpr std::size_t kLooks = 32;           // steps in which each node is looked at once
+constexpr btScalar kMoved = btScalar(1e-3);  // of the body's size
+
+}  // namespace
+
+void Settling::restart() {
+  m_isSettled = false;
+  m_quietSteps = 0;
+}
+
+bool Settling::isSettled(const WetCloth& cloth, const Step& step) {
+  if (!m_isSettled) return false;
+  const Water& water = cloth.water();
+  const bool isDisturbed =
+      water.moved() - m_movedBefore > kDisturbed * m_capacity || water.totalCapacity() != m_capacity;
+  if (isDisturbed || (m_inputs == DependsOn::waterAndShape && shapeChanged(cloth, step))) restart();
+  return m_isSettled;
+}
+
+void Settling::note(const WetCloth& cloth, const Step& step, double moved) {
+  m_shape.resize(m_inputs == DependsOn::waterAndShape ? cloth.water().size() : 0);
+  const double capacity = cloth.water().totalCapacity();
+  const bool isQuiet = moved <= kQuiet * capacity * std::min(step.dt, 1.0);
+  m_quietSteps = isQuiet ? m_quietSteps + 1 : 0;
+  if (m_quietSteps < kPatience) return;
+  m_isSettled = true;
+  m_capacity = capacity;
+  m_movedBefore = cloth.water().moved();
+  if (m_inputs == DependsOn::waterAndShape) rememberShape(cloth, step);
+}
+
+bool Settling::shapeChanged(const WetCloth& cloth, const Step& step) {
+  if (!(step.gravity == m_gravity) || m_shape.size() != cloth.water().size()) return true;
+  const std::size_t share = (m_shape.size() + kLooks - 1) / kLooks;
+  for (std::size_t k = 0; k < share; ++k) {
+    m_nextNode = m_nextNode + 1 < m_shape.size() ? m_nextNode + 1 : 0;
+    const btVector3& now = cloth.body().m_nodes[static_cast<int>(m_nextNode)].m_x;
+    if ((now - m_shape[m_nextNode]).length2() > m_tolerance2) return true;
+  }
+  return false;
+}
+
+void Settling::rememberShape(const WetCloth& cloth, const Step& step) {
+  const btSoftBody& body = cloth.body();
+  for (std::size_t i = 0; i < m_shape.size(); ++i) m_shape[i] = body.m_nodes[static_cast<int>(i)].m_x;
+  const btScalar tolerance = kMoved * (body.m_bounds[1] - body.m_bounds[0]).length();
+  m_tolerance2 = tolerance * tolerance;
+  m_gravity = step.gravity;
+}
+
+void Settling::transferState(StateArchive& archive) {
+  archive.value(m_quietSteps, m_isSettled, m_capacity, m_movedBefore, m_gravity, m_tolerance2);
+  archive.growingArray(m_shape);
+  archive.value(m_nextNode);
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

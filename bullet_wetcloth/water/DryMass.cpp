@@ -1,0 +1,159 @@
+#include "bullet_wetcloth/water/DryMass.h"
+
+#include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/NodeIndex.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+// Bullet rounds the masses that it shares out; less than this is not a change.
+constexpr double kMassRounding = 1e-5;
+
+double inverseMassOf(const btSoftBody& body, std::size_t node) {
+  return static_cast<double>(body.m_nodes[static_cast<int>(node)].m_im);
+}
+
+void requireMasses(const btSoftBody& body) {
+  if (body.m_nodes.size() == 0) rejectValue("body.m_nodes.size()", 0, "at least 1");
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    requireNotNegative("body.m_nodes[" + std::to_string(i) + "].m_im", static_cast<double>(body.m_nodes[i].m_im));
+  }
+}
+
+// What a pinned node weighs: by the free nodes' density where there are faces, by their mean elsewhere.
+std::vector<double> pinnedMasses(const btSoftBody& body, const std::vector<double>& areas, double arealDensity) {
+  double freeMass = 0;
+  double freeArea = 0;
+  int freeCount = 0;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    if (!(inverseMassOf(body, i) > 0)) continue;
+    freeMass += 1 / inverseMassOf(body, i);
+    freeArea += areas[i];
+    ++freeCount;
+  }
+  const double density = freeArea > 0 ? freeMass / freeArea : arealDensity;
+  std::vector<double> masses(areas.size());
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    masses[i] = areas[i] > 0 || freeCount == 0 ? density * areas[i] : freeMass / freeCount;
+    if (!(masses[i] > 0) && !(inverseMassOf(body, i) > 0)) {
+      rejectValue("body.m_nodes[" + std::to_string(i) + "].m_im", 0,
+                  "> 0, or the node part of a face: nothing tells what this pinned node weighs");
+    }
+  }
+  return masses;
+}
+
+bool hasPinnedNodes(const btSoftBody& body) {
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    if (!(body.m_nodes[i].m_im > 0)) return true;
+  }
+  return false;
+}
+
+// Water per wet mass around each new node: the mean over the old nodes that it is linked to, or `elsewhere`.
+std::vector<double> neighbourWaterShare(const btSoftBody& body, const Water& water, std::size_t newCount,
+                                        double elsewhere) {
+  const std::size_t oldCount = water.size();
+  std::vector<double> share(newCount, 0);
+  std::vector<int> count(newCount, 0);
+  for (int k = 0; k < body.m_links.size(); ++k) {
+    const std::size_t ends[2] = {index(indexOf(body, body.m_links[k].m_n[0])),
+                                 index(indexOf(body, body.m_links[k].m_n[1]))};
+    for (int side = 0; side < 2; ++side) {
+      const std::size_t added = ends[side];
+      const std::size_t old = ends[1 - side];
+      if (added < oldCount || old >= oldCount) continue;
+      share[added - oldCount] += water.held(old) / water.totalMass(old);
+      ++count[added - oldCount];
+    }
+  }
+  for (std::size_t i = 0; i < newCount; ++i) share[i] = count[i] > 0 ? share[i] / count[i] : elsewhere;
+  return share;
+}
+
+// Shares `amount` out in proportion to the weights, as far as there is room, and the rest by the room that is left;
+// what is more than all the room, in proportion to it.
+std::vector<double> shareOut(double amount, const std::vector<double>& weights, const std::vector<double>& rooms) {
+  std::vector<double> parts(weights.size(), 0);
+  const double total = compensatedSum(weights);
+  if (total > 0) {
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = std::min(amount * weights[k] / total, rooms[k]);
+  }
+  const double rest = amount - compensatedSum(parts);
+  const double room = compensatedSum(rooms) - compensatedSum(parts);
+  if (!(rest > 0)) return parts;
+  if (rest <= room) {
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += rest * ((rooms[k] - parts[k]) / room);
+  } else {
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = amount * (rooms[k] / compensatedSum(rooms));
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<double> nodeAreas(const btSoftBody& body) {
+  std::vector<double> areas(static_cast<std::size_t>(body.m_nodes.size()), 0);
+  for (int f = 0; f < body.m_faces.size(); ++f) {
+    btSoftBody::Node* const* corners = body.m_faces[f].m_n;
+    const btVector3 twice = (corners[1]->m_x - corners[0]->m_x).cross(corners[2]->m_x - corners[0]->m_x);
+    for (int k = 0; k < 3; ++k) areas[index(indexOf(body, corners[k]))] += static_cast<double>(twice.length()) / 6;
+  }
+  return areas;
+}
+
+std::vector<double> dryMasses(const btSoftBody& body, double arealDensity) {
+  requireMasses(body);
+  std::vector<double> masses(static_cast<std::size_t>(body.m_nodes.size()));
+  if (hasPinnedNodes(body)) masses = pinnedMasses(body, nodeAreas(body), arealDensity);
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    if (inverseMassOf(body, i) > 0) masses[i] = 1 / inverseMassOf(body, i);
+  }
+  return masses;
+}
+
+void redistributeWater(const btSoftBody& body, double arealDensity, Water& water) {
+  const std::size_t oldCount = std::min(water.size(), static_cast<std::size_t>(body.m_nodes.size()));
+  std::vector<double> dry = dryMasses(body, arealDensity);
+  std::vector<double> held(dry.size(), 0);
+  const std::size_t newCount = dry.size() - oldCount;
+
+  double freed = 0;
+  for (std::size_t i = 0; i < oldCount; ++i) {
+    const double ratio = dry[i] / water.totalMass(i);
+    const bool isShared = inverseMassOf(body, i) > 0 && ratio < 1 - kMassRounding && newCount > 0;
+    const double kept = isShared ? ratio : 1;
+    held[i] = water.held(i) * kept;
+    freed += water.held(i) - held[i];
+    dry[i] = water.dryMass(i) * kept;
+  }
+
+  if (freed > 0) {
+    // In proportion to mass and to how wet the surroundings are. Bullet gave each new node its wet mass: of that it may
+    // hold as much as leaves it saturated.
+    const std::vector<double> wet(dry.begin() + static_cast<std::ptrdiff_t>(oldCount), dry.end());
+    std::vector<double> weights = neighbourWaterShare(body, water, newCount, freed / compensatedSum(wet));
+    std::vector<double> rooms = wet;
+    for (std::size_t k = 0; k < newCount; ++k) {
+      weights[k] *= wet[k];
+      rooms[k] *= water.capacityRatio() / (1 + water.capacityRatio());
+    }
+    const std::vector<double> shares = shareOut(freed, weights, rooms);
+    for (std::size_t k = 0; k < newCount; ++k) {
+      held[oldCount + k] = shares[k];
+      // More than its room only where the user had overfilled the cloth.
+      dry[oldCount + k] = wet[k] - std::min(shares[k], rooms[k]);
+    }
+  }
+  water.replaceNodes(std::move(dry), std::move(held));
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,197 @@
+#include "bullet_wetcloth/water/NodeMasses.h"
+
+#include "bullet_wetcloth/bullet/ImpulseMatrix.h"
+#include "bullet_wetcloth/state/StateArchive.h"
+
+#include <BulletSoftBody/btDeformableBackwardEulerObjective.h>
+#include <BulletSoftBody/btDeformableBodySolver.h>
+#include <BulletSoftBody/btPreconditioner.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+void NodeMasses::remember() {
+  m_inverseMass.resize(static_cast<std::size_t>(m_body.m_nodes.size()));
+  for (int i = 0; i < m_body.m_nodes.size(); ++i) m_inverseMass[static_cast<std::size_t>(i)] = m_body.m_nodes[i].m_im;
+}
+
+void NodeMasses::commit(Water& water) {
+  const bool changed = writeNodes(water);
+  water.clearArrivals();
+  if (!changed && !m_linksAreStale) return;
+  // Reads the masses from the packed array: the nodes are several cache lines each.
+  if (m_body.m_links.size() > 0) {
+    const btSoftBody::Node* const nodes = &m_body.m_nodes[0];
+    const btScalar* const inverseMass = m_inverseMass.data();
+    writeLinks([=](const btSoftBody::Node* node) { return inverseMass[node - nodes]; });
+  }
+  if (!changed) return;
+  ++m_commits;
+  if (m_body.m_clusters.size() > 0) refreshClusters();
+  if (m_body.m_pose.m_bframe) refreshPose();
+  if (m_deformable) refreshDeformable();
+}
+
+bool NodeMasses::writeNodes(Water& water) {
+  bool changed = false;
+  for (std::size_t i = 0; i < m_inverseMass.size(); ++i) {
+    btSoftBody::Node& node = m_body.m_nodes[static_cast<int>(i)];
+    if (node.m_im != m_inverseMass[i]) {
+      if (node.m_im > 0) water.setDryMass(i, 1 / static_cast<double>(node.m_im));
+      m_inverseMass[i] = node.m_im;
+      changed = true;
+    }
+    if (node.m_im == 0) continue;
+    mixMomentum(node, water, i);
+    const btScalar rounded = static_cast<btScalar>(1 / water.totalMass(i));
+    changed = changed || rounded != node.m_im;
+    node.m_im = m_inverseMass[i] = rounded;
+  }
+  return changed;
+}
+
+void NodeMasses::joinArrival(Water& water, std::size_t node) {
+  btSoftBody::Node& target = m_body.m_nodes[static_cast<int>(node)];
+  if (target.m_im > 0) mixMomentum(target, water, node);
+  water.joinArrival(node);
+}
+
+// What leaves takes the node's own velocity with it, so only arrivals change the velocity: v' - v = (p - dm v) /
+// (m + dm), with m the mass that they meet, the node's before anything dripped or dried off it.
+void NodeMasses::mixMomentum(btSoftBody::Node& node, const Water& water, std::size_t index) const {
+  const Water::Arrival& arrival = water.arrival(index);
+  const double arrived = arrival.mass + arrival.runOff;
+  if (!(arrived > 0)) return;
+  const bool isSum = !water.leftSinceCommit() && arrival.runOff == 0;
+  const double met = 1 / static_cast<double>(node.m_im) + arrival.shifted;
+  const double inverseMass = 1 / (isSum ? water.totalMass(index) : std::max(met, 0.0) + arrived);
+  const auto change = [&](int axis) {
+    const double velocity = static_cast<double>(node.m_v[axis]);
+    return static_cast<btScalar>((arrival.momentum[axis] - arrived * velocity) * inverseMass);
+  };
+  const btVector3 deltaVelocity(change(0), change(1), change(2));
+  node.m_v += deltaVelocity;
+  if (m_deformable) node.m_vn += deltaVelocity;
+}
+
+void NodeMasses::setLinkStiffness(const std::vector<btScalar>& factors) {
+  m_linkStiffness = factors;
+  ++m_linkStiffnessRevision;
+  m_linksAreStale = true;
+}
+
+// Between commits an application may have changed a mass that we do not know yet, so this reads the nodes.
+void NodeMasses::refreshLinks() {
+  writeLinks([](const btSoftBody::Node* node) { return node->m_im; });
+}
+
+// As btSoftBody::updateLinkConstants(), bit for bit, while no link's stiffness is scaled.
+template <class InverseMassOf>
+void NodeMasses::writeLinks(InverseMassOf inverseMassOf) {
+  ++m_linkRefreshes;
+  m_linksAreStale = false;
+  if (m_body.m_links.size() == 0) return;
+  btSoftBody::Link* link = &m_body.m_links[0];
+  btSoftBody::Link* const end = link + m_body.m_links.size();
+  if (m_linkStiffness.size() != static_cast<std::size_t>(m_body.m_links.size())) {
+    for (; link != end; ++link) {
+      const btScalar sum = inverseMassOf(link->m_n[0]) + inverseMassOf(link->m_n[1]);
+      const btScalar stiffness = link->m_material->m_kLST;
+      link->m_c0 = stiffness == 1 ? sum : sum / stiffness;
+    }
+    return;
+  }
+  const btScalar* factor = m_linkStiffness.data();
+  for (; link != end; ++link, ++factor) {
+    const btScalar sum = inverseMassOf(link->m_n[0]) + inverseMassOf(link->m_n[1]);
+    const btScalar stiffness = link->m_material->m_kLST;
+    link->m_c0 = sum / std::min(stiffness * *factor, std::max(stiffness, btScalar(1)));
+  }
+}
+
+// As btSoftBody::initializeClusters(), which cannot run on a moving body (it zeroes velocities and leaks the
+// cluster's tree leaf): masses, and then centre, inertia and frame in the rest shape.
+void NodeMasses::refreshClusters() {
+  for (int k = 0; k < m_body.m_clusters.size(); ++k) {
+    btSoftBody::Cluster& cluster = *m_body.m_clusters[k];
+    if (cluster.m_nodes.size() == 0 || cluster.m_masses.size() != cluster.m_nodes.size()) continue;
+    btScalar total = 0;
+    btVector3 centre(0, 0, 0);
+    for (int j = 0; j < cluster.m_nodes.size(); ++j) {
+      const btScalar inverseMass = cluster.m_nodes[j]->m_im;
+      cluster.m_masses[j] = inverseMass > 0 ? 1 / inverseMass : btScalar(BT_LARGE_FLOAT);
+      total += cluster.m_masses[j];
+      centre += cluster.m_framerefs[j] * cluster.m_masses[j];
+    }
+    cluster.m_imass = 1 / total;
+    centre *= cluster.m_imass;
+    btMatrix3x3 inertia(0, 0, 0, 0, 0, 0, 0, 0, 0);
+    for (int j = 0; j < cluster.m_nodes.size(); ++j) {
+      cluster.m_framerefs[j] -= centre;
+      const btVector3& r = cluster.m_framerefs[j];
+      const btScalar mass = cluster.m_masses[j];
+      const btScalar squared = r.length2();
+      for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) inertia[row][column] -= mass * r[row] * r[column];
+        inertia[row][row] += mass * squared;
+      }
+    }
+    cluster.m_locii = inertia.inverse();
+  }
+}
+
+// As btSoftBody::setPose(), which would also reset every rest length: weights by mass, and then the reference shape
+// about its new centre.
+void NodeMasses::refreshPose() {
+  btSoftBody::Pose& pose = m_body.m_pose;
+  const int count = m_body.m_nodes.size();
+  if (pose.m_wgh.size() != count || pose.m_pos.size() != count) return;
+  btScalar freeMass = 0;
+  int pinned = 0;
+  for (int i = 0; i < count; ++i) {
+    if (m_body.m_nodes[i].m_im > 0) {
+      freeMass += 1 / m_body.m_nodes[i].m_im;
+    } else {
+      ++pinned;
+    }
+  }
+  const btScalar pinnedMass = freeMass * static_cast<btScalar>(count) * 1000;  // Bullet's own weight for a pin
+  const btScalar total = freeMass + static_cast<btScalar>(pinned) * pinnedMass;
+  btVector3 centre(0, 0, 0);
+  for (int i = 0; i < count; ++i) {
+    const btScalar inverseMass = m_body.m_nodes[i].m_im;
+    pose.m_wgh[i] = (inverseMass > 0 ? 1 / inverseMass : pinnedMass) / total;
+    centre += pose.m_pos[i] * pose.m_wgh[i];
+  }
+  btMatrix3x3 moments(0, 0, 0, 0, 0, 0, 0, 0, 0);
+  for (int i = 0; i < count; ++i) {
+    pose.m_pos[i] -= centre;
+    const btVector3& r = pose.m_pos[i];
+    for (int row = 0; row < 3; ++row) moments[row] += r * (pose.m_wgh[i] * r[row]);
+  }
+  // A flat cloth has no extent across itself: Bullet's own inverse is not finite there, and ours leaves it alone.
+  if (moments.determinant() != 0) pose.m_aqq = moments.inverse();
+}
+
+void NodeMasses::refreshDeformable() {
+  for (int i = 0; i < m_body.m_deformableAnchors.size(); ++i) {
+    btSoftBody::DeformableNodeRigidAnchor& anchor = m_body.m_deformableAnchors[i];
+    anchor.m_c2 = anchor.m_node->m_im;
+    const btRigidBody* rigid = btRigidBody::upcast(anchor.m_cti.m_colObj);
+    if (rigid) anchor.m_c0 = impulseMatrix(anchor.m_node->m_im, *rigid, anchor.m_c1);
+  }
+  btSoftBodySolver* solver = m_body.getSoftBodySolver();
+  if (solver) static_cast<btDeformableBodySolver*>(solver)->m_objective->m_massPreconditioner->reinitialize(true);
+}
+
+void NodeMasses::transferState(StateArchive& archive) {
+  archive.array(m_inverseMass);
+  archive.growingArray(m_linkStiffness);
+  archive.value(m_linkStiffnessRevision, m_linksAreStale, m_commits, m_linkRefreshes);
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

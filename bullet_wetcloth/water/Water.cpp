@@ -1,0 +1,161 @@
+#include "bullet_wetcloth/water/Water.h"
+
+#include "bullet_wetcloth/state/StateArchive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+double compensatedSum(const std::vector<double>& values) {
+  CompensatedSum total;
+  for (const double value : values) total.add(value);
+  return total.value();
+}
+
+void CompensatedSum::transferState(StateArchive& archive) { archive.value(m_sum, m_compensation); }
+
+Ledger Water::ledger() const {
+  Ledger ledger;
+  ledger.initial = m_initial.value();
+  CompensatedSum absorbed = m_absorbed;
+  for (const double part : m_newlyAbsorbed) absorbed.add(part);
+  ledger.absorbed = absorbed.value();
+  ledger.dripped = m_dripped.value();
+  ledger.evaporated = m_evaporated.value();
+  ledger.held = compensatedSum(m_held);
+  ledger.runOff = m_runOff.value();
+  return ledger;
+}
+
+double Water::moved() const {
+  double absorbed = m_absorbed.value();
+  for (const double part : m_newlyAbsorbed) absorbed += part;
+  return absorbed + m_dripped.value() + m_evaporated.value() + m_movedWithin;
+}
+
+void Water::runOff(std::size_t node, double mass, double vx, double vy, double vz) {
+  if (!(mass > 0)) return;
+  Arrival& arrival = m_arrivals[node];
+  arrival.runOff += mass;
+  arrival.momentum[0] += mass * vx;
+  arrival.momentum[1] += mass * vy;
+  arrival.momentum[2] += mass * vz;
+  m_runOff.add(mass);
+  m_movedSinceCommit = true;  // no revision: the water is as it was
+}
+
+// What leaves is a sample of the node's water: its share of what arrived since the last commit goes on with the
+// momentum that it brought. So a node can pass on more than it weighed.
+void Water::move(std::size_t from, std::size_t to, double mass, double vx, double vy, double vz) {
+  const double moved = std::min(mass, m_held[from]);
+  if (!(moved > 0) || from == to) return;
+  Arrival& source = m_arrivals[from];
+  Arrival& target = m_arrivals[to];
+  const double fresh = std::min(moved / m_held[from] * source.mass, moved);
+  const double old = moved - fresh;
+  const double velocity[3] = {vx, vy, vz};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double passedOn = fresh > 0 ? source.momentum[axis] * (fresh / (source.mass + source.runOff)) : 0;
+    source.momentum[axis] -= passedOn;
+    target.momentum[axis] += passedOn + old * velocity[axis];
+  }
+  source.mass -= fresh;
+  source.shifted -= old;
+  target.mass += moved;
+  m_held[from] -= moved;
+  m_held[to] += moved;
+  m_movedWithin += moved;
+  m_leftSinceCommit = true;
+  markMoved();
+}
+
+void Water::redistribute(const std::vector<double>& held) {
+  CompensatedSum rounding;
+  for (std::size_t i = 0; i < m_held.size(); ++i) {
+    const double change = held[i] - m_held[i];
+    rounding.add(change);
+    m_held[i] = held[i];
+    m_movedWithin += change > 0 ? change : 0;
+    m_arrivals[i].shifted += change;
+  }
+  m_initial.add(rounding.value());
+  m_leftSinceCommit = true;
+  markMoved();
+}
+
+double Water::take(std::size_t node, double mass, CompensatedSum& account) {
+  const double before = m_held[node];
+  const double wanted = std::min(mass, before);
+  if (!(wanted > 0)) return 0;
+  m_held[node] = before - wanted;
+  const double left = before - m_held[node];
+  account.add(left);
+  m_leftSinceCommit = true;
+  markMoved();
+  return left;
+}
+
+void Water::joinArrival(std::size_t node) {
+  const double shifted = m_arrivals[node].shifted + m_arrivals[node].mass;
+  m_arrivals[node] = Arrival();
+  m_arrivals[node].shifted = shifted;
+}
+
+void Water::clearArrivals() {
+  std::fill(m_arrivals.begin(), m_arrivals.end(), Arrival());
+  for (const double part : m_newlyAbsorbed) m_absorbed.add(part);
+  m_newlyAbsorbed.fill(0);
+  m_movedSinceCommit = m_leftSinceCommit = false;
+}
+
+void Water::reset(std::vector<double> dryMass, double capacityRatio) {
+  m_dryMass = std::move(dryMass);
+  m_held.assign(m_dryMass.size(), 0);
+  m_arrivals.assign(m_dryMass.size(), Arrival());
+  m_capacityRatio = capacityRatio;
+  m_totalDryMass = compensatedSum(m_dryMass);
+  m_initial = m_absorbed = m_dripped = m_evaporated = m_runOff = CompensatedSum();
+  m_newlyAbsorbed.fill(0);
+  markMoved();
+  m_movedSinceCommit = m_leftSinceCommit = false;
+}
+
+void Water::setHeld(const std::vector<double>& held) {
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    m_initial.add(held[i]);
+    m_initial.add(-m_held[i]);
+    m_movedWithin += std::fabs(held[i] - m_held[i]);
+    m_held[i] = held[i];
+  }
+  markMoved();
+}
+
+void Water::replaceNodes(std::vector<double> dryMass, std::vector<double> held) {
+  // Rounding of the redistribution is booked, so that the ledger stays closed for as long as the cloth lives.
+  m_initial.add(compensatedSum(held));
+  m_initial.add(-compensatedSum(m_held));
+  m_dryMass = std::move(dryMass);
+  m_totalDryMass = compensatedSum(m_dryMass);
+  m_held = std::move(held);
+  m_arrivals.assign(m_held.size(), Arrival());
+  markMoved();
+}
+
+void Water::transferState(StateArchive& archive) {
+  archive.array(m_held);
+  archive.array(m_dryMass);
+  archive.each(m_arrivals, [&](Arrival& arrival) {
+    archive.value(arrival.mass, arrival.momentum[0], arrival.momentum[1], arrival.momentum[2]);
+    archive.value(arrival.runOff, arrival.shifted);
+  });
+  archive.value(m_capacityRatio, m_totalDryMass, m_movedWithin);
+  for (double& part : m_newlyAbsorbed) archive.value(part);
+  for (auto* sum : {&m_initial, &m_absorbed, &m_dripped, &m_evaporated, &m_runOff}) sum->transferState(archive);
+  archive.value(m_revision, m_movedSinceCommit, m_leftSinceCommit);
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

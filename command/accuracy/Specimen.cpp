@@ -1,0 +1,20 @@
+#include "command/accuracy/Specimen.h"
+
+namespace accuracy {
+
+Specimen::Specimen(const Settings& settings)
+    : m_world(settings.world), m_wetWorld(std::make_unique<wetcloth::WetClothWorld>(m_world.world())) {
+  m_body = &m_world.add(settings.patch.build(m_world.worldInfo()), settings.springs ? &*settings.springs : nullptr);
+  m_cloth = &m_wetWorld->add(*m_body, settings.fabric);
+}
+
+wetcloth::ClothPatch levelSquare(double side, int nodes, double arealDensity) {
+  wetcloth::ClothPatch patch;
+  patch.columns = patch.rows = nodes;
+  patch.edgeU = btVector3(btScalar(side), 0, 0);
+  patch.edgeV = btVector3(0, 0, btScalar(side));
+  patch.arealDensity = arealDensity;
+  return patch;
+}
+
+}  // namespace accuracy

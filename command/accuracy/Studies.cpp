@@ -1,0 +1,14 @@
+#include "command/accuracy/Studies.h"
+
+namespace accuracy {
+
+const std::vector<std::pair<std::string, CarryOutStudies>>& studyNames() {
+  static const std::vector<std::pair<std::string, CarryOutStudies>> names{
+      {"absorption", studyAbsorption}, {"diffusion", studyDiffusion},
+      {"splitting", studySplitting},   {"wind", studyWind},
+      {"cloth", studyCloth},           {"mesh", studyMesh},
+      {"collision", studyCollision},   {"paper", studyPaper}};
+  return names;
+}
+
+}  // namespace accuracy

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "command/accuracy/Study.h"
+#include "command/plot/Plot.h"
+
+namespace accuracy {
+
+/// Error against time per node and simulated second, both logarithmic, labelled by setting; the front as a line below.
+runner::Plot plotOf(const Study& study);
+
+}  // namespace accuracy

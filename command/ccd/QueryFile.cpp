@@ -1,0 +1,149 @@
+#include "command/ccd/QueryFile.h"
+
+#include "command/ccd/Gunzip.h"
+#include "command/cli/Errors.h"
+#include "command/cli/TextFile.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+
+namespace runner {
+namespace {
+
+const std::vector<std::string>& columnNames() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all{"id", "scene", "type", "truth"};
+    for (const char* time : {"_t0", "_t1"}) {
+      for (const char* point : {"0", "1", "2", "3"}) {
+        for (const char* axis : {"x", "y", "z"}) all.push_back(std::string(axis) + point + time);
+      }
+    }
+    return all;
+  }();
+  return names;
+}
+
+/// A field for an error message, whatever it has in it.
+std::string shown(std::string_view field) {
+  constexpr std::size_t longest = 40;
+  std::string text = "\"";
+  for (const char character : field.substr(0, longest)) {
+    const unsigned char byte = static_cast<unsigned char>(character);
+    char hex[8];
+    std::snprintf(hex, sizeof hex, "\\x%02x", static_cast<unsigned>(byte));
+    text += byte >= 0x20 && byte < 0x7f ? std::string(1, character) : hex;
+  }
+  return text + (field.size() > longest ? "...\"" : "\"");
+}
+
+/// The lines of a file one after the other, and complaints about where in them something is wrong.
+class Lines {
+ public:
+  Lines(const std::string& file, std::string_view text) : m_file(file), m_rest(text) {}
+
+  bool next(std::vector<std::string_view>& fields) {
+    if (m_rest.empty()) return false;
+    ++m_number;
+    const std::size_t end = m_rest.find('\n');
+    std::string_view line = m_rest.substr(0, end);
+    m_rest.remove_prefix(end == std::string_view::npos ? m_rest.size() : end + 1);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    fields.clear();
+    for (std::size_t comma = 0; comma != std::string_view::npos;) {
+      comma = line.find(',');
+      fields.push_back(line.substr(0, comma));
+      line.remove_prefix(comma == std::string_view::npos ? 0 : comma + 1);
+    }
+    requireCount(fields);
+    return true;
+  }
+
+  /// @param column counted from 0
+  [[noreturn]] void reject(std::size_t column, std::string_view field, const std::string& complaint) const {
+    throw InputError(m_file + ":" + std::to_string(m_number) + ": column " + std::to_string(column + 1) + " (" +
+                     columnNames()[column] + "): " + shown(field) + ": " + complaint);
+  }
+
+ private:
+  void requireCount(const std::vector<std::string_view>& fields) const {
+    const std::size_t wanted = columnNames().size();
+    if (fields.size() == wanted) return;
+    const std::size_t column = std::min(fields.size(), wanted);
+    throw InputError(m_file + ":" + std::to_string(m_number) + ": column " + std::to_string(column + 1) +
+                     (column < wanted ? " (" + columnNames()[column] + ") is missing" : " is one too many") +
+                     ": must have " + std::to_string(wanted) + " fields");
+  }
+
+  const std::string& m_file;
+  std::string_view m_rest;
+  std::size_t m_number = 0;
+};
+
+double numberIn(const Lines& lines, std::size_t column, std::string_view field) {
+  double number = 0;
+  const char* const end = field.data() + field.size();
+  const auto [stopped, error] = std::from_chars(field.data(), end, number);
+  if (error == std::errc::invalid_argument || stopped != end) lines.reject(column, field, "must be a number");
+  if (error != std::errc()) lines.reject(column, field, "must be in the range of a double");
+  if (!std::isfinite(number)) lines.reject(column, field, "must be finite");
+  return number;
+}
+
+/// Which of the two words the field is: true for the second.
+bool isSecond(const Lines& lines, std::size_t column, std::string_view field, const char* first, const char* second) {
+  if (field == second) return true;
+  if (field != first) lines.reject(column, field, std::string("must be ") + first + " or " + second);
+  return false;
+}
+
+KnownQuery queryIn(const Lines& lines, const std::vector<std::string_view>& fields) {
+  using wetcloth::collision::Pair;
+  KnownQuery query;
+  query.id = fields[0];
+  query.pair = isSecond(lines, 2, fields[2], "vf", "ee") ? Pair::edgeEdge : Pair::vertexFace;
+  query.meets = isSecond(lines, 3, fields[3], "0", "1");
+  std::size_t column = 4;
+  for (auto* points : {&query.points.start, &query.points.end}) {
+    for (auto& point : *points) {
+      for (double& coordinate : point) {
+        coordinate = numberIn(lines, column, fields[column]);
+        ++column;
+      }
+    }
+  }
+  return query;
+}
+
+std::string textOf(const std::string& file) {
+  try {
+    return gunzipped(readTextFile(file));
+  } catch (const std::invalid_argument& error) {
+    throw InputError(onOneLine(file) + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<KnownQuery> readQueries(const std::string& file) {
+  const std::string text = textOf(file);
+  const std::string name = onOneLine(file);
+  Lines lines(name, text);
+  std::vector<std::string_view> fields;
+  if (!lines.next(fields)) throw InputError(name + ": is empty");
+  for (std::size_t column = 0; column < fields.size(); ++column) {
+    const std::string& wanted = columnNames()[column];
+    if (fields[column] != wanted) lines.reject(column, fields[column], "must be the heading \"" + wanted + "\"");
+  }
+  std::vector<KnownQuery> queries;
+  while (lines.next(fields)) queries.push_back(queryIn(lines, fields));
+  if (queries.empty()) throw InputError(name + ": has a heading but no queries, must have at least one");
+  return queries;
+}
+
+}  // namespace runner

@@ -1,0 +1,85 @@
+#include "command/cost/CostWorld.h"
+
+#include "command/run/ProcessorTime.h"
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <memory>
+
+namespace runner {
+namespace {
+
+/// "HookeSprings" as "hooke_springs": a class as the scene's key for it.
+std::string keyOf(const wetcloth::Effect& effect) {
+  std::string key;
+  for (const char* letter = effect.name(); *letter != '\0'; ++letter) {
+    const auto code = static_cast<unsigned char>(*letter);
+    if (std::isupper(code) != 0 && !key.empty()) key += '_';
+    key += static_cast<char>(std::tolower(code));
+  }
+  return key;
+}
+
+void removeEffects(wetcloth::WetCloth& cloth, const std::function<bool(const wetcloth::Effect&)>& isUnwanted) {
+  std::vector<wetcloth::Effect*> unwanted;
+  for (const auto& effect : cloth.effects()) {
+    if (isUnwanted(*effect)) unwanted.push_back(effect.get());
+  }
+  for (wetcloth::Effect* effect : unwanted) cloth.remove(*effect);
+}
+
+}  // namespace
+
+/// The last effect of the last cloth: when it runs, our part of the step is over. Bullet's worlds call us before they
+/// do anything else, so that part began, but for some hundred nanoseconds, with the step.
+class CostWorld::Stopwatch : public wetcloth::Effect {
+ public:
+  const char* name() const override { return "Stopwatch"; }
+  wetcloth::Stage stage() const override { return wetcloth::Stage::elasticity; }
+  void apply(wetcloth::WetCloth&, const wetcloth::Step&) override { m_time = processorTime(); }
+  double time() const { return m_time; }
+
+ private:
+  double m_time = 0;
+};
+
+CostWorld CostWorld::idle(const Scene& scene) {
+  CostWorld world(scene, SceneWorld::Kind::wet);
+  for (wetcloth::WetCloth* cloth : world.m_world->cloths()) {
+    removeEffects(*cloth, [](const wetcloth::Effect&) { return true; });
+    cloth->setSaturation(0);
+  }
+  return world;
+}
+
+CostWorld CostWorld::timed(const Scene& scene, const std::string& without) {
+  CostWorld world(scene, SceneWorld::Kind::wet);
+  for (wetcloth::WetCloth* cloth : world.m_world->cloths()) {
+    removeEffects(*cloth, [&](const wetcloth::Effect& effect) { return keyOf(effect) == without; });
+  }
+  auto stopwatch = std::make_unique<Stopwatch>();
+  world.m_stopwatch = stopwatch.get();
+  world.m_world->cloths().back()->add(std::move(stopwatch));
+  return world;
+}
+
+CostWorld::Seconds CostWorld::step() {
+  const double start = processorTime();
+  m_world->step();
+  const double end = processorTime();
+  return {end - start, m_stopwatch == nullptr ? 0 : m_stopwatch->time() - start};
+}
+
+std::vector<std::string> effectNames(const SceneWorld& world) {
+  std::vector<std::string> names;
+  for (const wetcloth::WetCloth* cloth : world.cloths()) {
+    for (const auto& effect : cloth->effects()) {
+      const std::string key = keyOf(*effect);
+      if (std::find(names.begin(), names.end(), key) == names.end()) names.push_back(key);
+    }
+  }
+  return names;
+}
+
+}  // namespace runner

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "command/fall/Fall.h"
+#include "command/scene/BulletWorld.h"
+
+#include <memory>
+
+namespace runner {
+
+/// A level cloth of 32 x 32 nodes that falls from rest.
+class FallingCloth {
+ public:
+  FallingCloth(const FallMode& mode, const FallMode::Case& fallCase, WorldKind kind);
+
+  /// One of fallSubstep.
+  void substep();
+  /// Since the start [s].
+  double time() const { return static_cast<double>(m_substeps) * fallSubstep; }
+  /// How far the centre of mass has fallen [m].
+  double fallen() const { return m_fallen; }
+
+ private:
+  BulletWorld m_world;
+  btSoftBody* m_body;
+  std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;  // after the world: it detaches before the world goes
+  long long m_substeps = 0;
+  double m_fallen = 0;
+  double m_lifted = 0;  // [m], see liftByOneMetre()
+};
+
+}  // namespace runner

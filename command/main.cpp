@@ -1,0 +1,17 @@
+#include "command/cli/CommandLine.h"
+#include "command/cli/Errors.h"
+
+#include <cstdio>
+#include <exception>
+
+int main(int count, char** arguments) {
+  try {
+    return runner::runCommandLine(count, arguments);
+  } catch (const runner::InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", runner::onOneLine(error.what()).c_str());
+    return 1;
+  }
+}

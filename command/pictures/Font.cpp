@@ -1,0 +1,9 @@
+#include "command/pictures/Font.h"
+
+#include "Embedded.h"
+
+namespace pictures {
+
+std::string_view fontFile() { return embedded::DejaVuSansSubset_ttf; }
+
+}  // namespace pictures

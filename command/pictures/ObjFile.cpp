@@ -1,0 +1,84 @@
+#include "command/pictures/ObjFile.h"
+
+#include "command/pictures/ClothNames.h"
+#include "command/pictures/OutputFile.h"
+#include "command/pictures/PointCache2.h"
+#include "command/pictures/StandingMesh.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pictures {
+namespace {
+
+/// Moved and scaled, both directions alike, to lie in [0, 1].
+std::vector<Texture> inUnitSquare(std::vector<Texture> texture) {
+  Texture low{std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
+  float size = 0;
+  for (const Texture& place : texture) low = {std::min(low[0], place[0]), std::min(low[1], place[1])};
+  for (const Texture& place : texture) size = std::max({size, place[0] - low[0], place[1] - low[1]});
+  if (!(size > 0)) size = 1;
+  for (Texture& place : texture) place = {(place[0] - low[0]) / size, (place[1] - low[1]) / size};
+  return texture;
+}
+
+void writeCloth(const Recording& recording, std::size_t cloth, const std::string& name, const std::string& path) {
+  const ClothShape& shape = recording.cloths[cloth];
+  OutputFile file(path);
+  std::ostream& out = file.stream();
+  out.precision(9);
+  out << "# " << onOneLine(recording.scenery.title) << ", metres\no " << name << "\n";
+  for (const Vector3& p : recording.frames.front().cloths[cloth].positions) {
+    out << "v " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  }
+  for (const Texture& place : inUnitSquare(shape.texture)) out << "vt " << place[0] << ' ' << place[1] << '\n';
+  out << "s 1\n";
+  for (const Triangle& triangle : shape.triangles) {
+    out << 'f';
+    for (const int node : triangle) out << ' ' << node + 1 << '/' << node + 1;
+    out << '\n';
+  }
+  file.close();
+}
+
+void writeScenery(const std::vector<StandingMesh>& meshes, const std::string& folder) {
+  std::vector<std::string> names;
+  for (const StandingMesh& mesh : meshes) names.push_back(mesh.name);
+  names = uniqueNames(names);
+  OutputFile file(folder + "/scenery.obj");
+  std::ostream& out = file.stream();
+  out.precision(9);
+  out << "# what stands around the cloths, metres\n";
+  int first = 1;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    out << "o " << names[i] << '\n';
+    for (const Vector3& p : meshes[i].vertices) out << "v " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+    for (const Vector3& n : meshes[i].normals) out << "vn " << n[0] << ' ' << n[1] << ' ' << n[2] << '\n';
+    for (const Triangle& triangle : meshes[i].triangles) {
+      out << 'f';
+      for (const int corner : triangle) out << ' ' << first + corner << "//" << first + corner;
+      out << '\n';
+    }
+    first += static_cast<int>(meshes[i].vertices.size());
+  }
+  file.close();
+}
+
+}  // namespace
+
+void writeObjAndPointCaches(const Recording& recording, const std::string& folder) {
+  const std::string inFolder = folder + "/";
+  std::vector<std::string> names{"scenery"};
+  for (const ClothShape& cloth : recording.cloths) names.push_back(cloth.name);
+  names = uniqueNames(names);
+  for (std::size_t cloth = 0; cloth < recording.cloths.size(); ++cloth) {
+    const std::string& name = names[cloth + 1];
+    const std::string path = inFolder + name;
+    writeCloth(recording, cloth, name, path + ".obj");
+    writePointCache(recording, cloth, path + ".pc2");
+  }
+  const std::vector<StandingMesh> meshes = standingMeshes(recording);
+  if (!meshes.empty()) writeScenery(meshes, folder);
+}
+
+}  // namespace pictures

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "command/pictures/Recording.h"
+
+#include <string>
+
+namespace pictures {
+
+/// Writes into a folder for each cloth CLOTH.obj, its mesh at the first frame with texture coordinates in [0, 1], and
+/// CLOTH.pc2, its vertices at every frame; and scenery.obj with what stands around, if anything does.
+/// Throws std::runtime_error that says why a file could not be written.
+void writeObjAndPointCaches(const Recording& recording, const std::string& folder);
+
+}  // namespace pictures

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "command/pictures/Bounds.h"
+#include "command/pictures/Recording.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace pictures {
+
+/// A recording in few bytes, for page/unpack.js: not yet compressed, but so that deflate makes little of them.
+/// Positions have 16 bits per axis, in a box around the run; saturation, stretch and speed have 8.
+/// @param head  gets the counts and ranges that the bytes need to be understood
+std::string packed(const Recording& recording, nlohmann::json& head);
+
+}  // namespace pictures

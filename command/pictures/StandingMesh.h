@@ -1,0 +1,22 @@
+#pragma once
+
+#include "command/pictures/Recording.h"
+
+#include <string>
+#include <vector>
+
+namespace pictures {
+
+/// Something of the scenery as triangles, for files that know nothing else.
+struct StandingMesh {
+  std::string name;  ///< "solid", "ground", "water": not unique
+  std::vector<Vector3> vertices;
+  std::vector<Vector3> normals;  ///< one per vertex
+  std::vector<Triangle> triangles;
+  Rgb colour{};
+};
+
+/// The solids, and of each ground and of the water a square that reaches well beyond the cloths of all frames.
+std::vector<StandingMesh> standingMeshes(const Recording& recording);
+
+}  // namespace pictures

@@ -1,0 +1,162 @@
+#include "command/pictures/UsdFile.h"
+
+#include "command/pictures/Bounds.h"
+#include "command/pictures/ClothColour.h"
+#include "command/pictures/ClothNames.h"
+#include "command/pictures/OutputFile.h"
+#include "command/pictures/StandingMesh.h"
+#include "command/pictures/VertexNormals.h"
+
+#include <cmath>
+
+namespace pictures {
+namespace {
+
+template <std::size_t Count>
+void put(std::ostream& out, const std::array<float, Count>& tuple) {
+  out << '(';
+  for (std::size_t i = 0; i < Count; ++i) out << (i == 0 ? "" : ", ") << tuple[i];
+  out << ')';
+}
+void put(std::ostream& out, float value) { out << value; }
+void put(std::ostream& out, int value) { out << value; }
+
+template <class Value>
+void put(std::ostream& out, const std::vector<Value>& values) {
+  out << '[';
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i != 0) out << ", ";
+    put(out, values[i]);
+  }
+  out << ']';
+}
+
+std::vector<int> cornersOf(const std::vector<Triangle>& triangles) {
+  std::vector<int> corners;
+  for (const Triangle& triangle : triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  return corners;
+}
+
+std::vector<Rgb> coloursOf(const ClothShape& shape, const ClothState& state) {
+  std::vector<Rgb> colours;
+  for (const float saturation : state.saturation) colours.push_back(clothColour(shape, saturation));
+  return colours;
+}
+
+std::vector<Vector3> extentOf(const std::vector<Vector3>& points) {
+  Bounds bounds;
+  for (const Vector3& point : points) bounds.add(point);
+  return {bounds.low, bounds.high};
+}
+
+/// Frames recorded per second, which also is one of them when there is only one.
+double frameRate(const std::vector<Frame>& frames) {
+  const double duration = frames.back().time - frames.front().time;
+  return duration > 0 ? static_cast<double>(frames.size() - 1) / duration : 1;
+}
+
+class UsdWriter {
+ public:
+  UsdWriter(const Recording& recording, std::ostream& out) : m_recording(recording), m_out(out) { m_out.precision(7); }
+
+  void write() {
+    head();
+    m_out << "\ndef Xform \"scene\"\n{\n";
+    std::vector<std::string> names;
+    for (const ClothShape& cloth : m_recording.cloths) names.push_back(cloth.name);
+    const std::vector<StandingMesh> standing = standingMeshes(m_recording);
+    for (const StandingMesh& mesh : standing) names.push_back(mesh.name);
+    names = uniqueNames(names);
+    for (std::size_t i = 0; i < m_recording.cloths.size(); ++i) cloth(i, names[i]);
+    for (std::size_t i = 0; i < standing.size(); ++i) stands(standing[i], names[m_recording.cloths.size() + i]);
+    m_out << "}\n";
+  }
+
+ private:
+  void head() {
+    const Vector3& up = m_recording.scenery.up;
+    const double rate = frameRate(m_recording.frames);
+    m_out << "#usda 1.0\n(\n    defaultPrim = \"scene\"\n    doc = \"" << title() << "\"\n    startTimeCode = 0\n"
+          << "    endTimeCode = " << m_recording.frames.size() - 1 << "\n    framesPerSecond = " << rate
+          << "\n    timeCodesPerSecond = " << rate << "\n    metersPerUnit = 1\n    upAxis = \""
+          << (std::abs(up[2]) > std::abs(up[1]) ? 'Z' : 'Y') << "\"\n)\n";
+  }
+
+  std::string title() const {
+    std::string text = onOneLine(m_recording.scenery.title);
+    for (char& c : text) {
+      if (c == '"' || c == '\\') c = '\'';
+    }
+    return text;
+  }
+
+  void beginMesh(const std::string& name, const std::vector<Triangle>& triangles, bool bothSides) {
+    m_out << "    def Mesh \"" << name << "\"\n    {\n        uniform bool doubleSided = " << (bothSides ? 1 : 0)
+          << "\n        uniform token subdivisionScheme = \"none\"\n";
+    fixed("int[] faceVertexCounts", std::vector<int>(triangles.size(), 3));
+    fixed("int[] faceVertexIndices", cornersOf(triangles));
+  }
+
+  template <class Value>
+  void fixed(const std::string& attribute, const std::vector<Value>& values, const char* interpolation = "") {
+    m_out << "        " << attribute << " = ";
+    put(m_out, values);
+    m_out << interpolation << '\n';
+  }
+
+  template <class ValuesAt>
+  void sampled(const std::string& attribute, std::size_t cloth, ValuesAt valuesAt) {
+    m_out << "        " << attribute << ".timeSamples = {\n";
+    for (std::size_t i = 0; i < m_recording.frames.size(); ++i) {
+      m_out << "            " << i << ": ";
+      put(m_out, valuesAt(m_recording.frames[i].cloths[cloth]));
+      m_out << ",\n";
+    }
+    m_out << "        }\n";
+  }
+
+  template <class ValuesAt>
+  void sampledByVertex(const std::string& attribute, std::size_t cloth, ValuesAt valuesAt) {
+    m_out << "        " << attribute << perVertex << '\n';
+    sampled(attribute, cloth, valuesAt);
+  }
+
+  void cloth(std::size_t index, const std::string& name) {
+    const ClothShape& shape = m_recording.cloths[index];
+    beginMesh(name, shape.triangles, true);
+    sampled("float3[] extent", index, [](const ClothState& state) { return extentOf(state.positions); });
+    sampled("point3f[] points", index, [](const ClothState& state) { return state.positions; });
+    sampledByVertex("normal3f[] normals", index,
+                    [&](const ClothState& state) { return vertexNormals(state.positions, shape.triangles); });
+    sampledByVertex("float[] primvars:wetness", index, [](const ClothState& state) { return state.saturation; });
+    sampledByVertex("color3f[] primvars:displayColor", index,
+                    [&](const ClothState& state) { return coloursOf(shape, state); });
+    fixed("texCoord2f[] primvars:st", shape.texture, perVertex);
+    m_out << "    }\n";
+  }
+
+  void stands(const StandingMesh& mesh, const std::string& name) {
+    beginMesh(name, mesh.triangles, false);
+    fixed("float3[] extent", extentOf(mesh.vertices));
+    fixed("point3f[] points", mesh.vertices);
+    fixed("normal3f[] normals", mesh.normals, perVertex);
+    fixed("color3f[] primvars:displayColor", std::vector<Rgb>{mesh.colour},
+          " (\n            interpolation = \"constant\"\n        )");
+    m_out << "    }\n";
+  }
+
+  static constexpr const char* perVertex = " (\n            interpolation = \"vertex\"\n        )";
+
+  const Recording& m_recording;
+  std::ostream& m_out;
+};
+
+}  // namespace
+
+void writeUsd(const Recording& recording, const std::string& path) {
+  OutputFile file(path);
+  UsdWriter(recording, file.stream()).write();
+  file.close();
+}
+
+}  // namespace pictures

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "command/pictures/gl/VertexArray.h"
+
+#include "command/pictures/Recording.h"
+
+#include <vector>
+
+namespace pictures {
+
+/// A solid's triangles, drawn once or at many places.
+class SolidMesh {
+ public:
+  explicit SolidMesh(const Solid& solid);
+
+  void draw() const;
+  /// @param instances  four numbers each: moved to x, y, z and made so many times as large
+  void drawAt(const std::vector<float>& instances);
+
+ private:
+  VertexArray m_vertices;
+};
+
+/// Of radius 1 about the origin.
+Solid roundBall();
+
+/// A round bar with closed ends.
+Solid roundBar(const Vector3& from, const Vector3& to, float radius);
+
+}  // namespace pictures

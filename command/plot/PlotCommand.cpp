@@ -1,0 +1,62 @@
+#include "command/plot/PlotCommand.h"
+
+#include "command/cli/JsonOutput.h"
+#include "command/cli/Progress.h"
+#include "command/plot/PlotFiles.h"
+#include "command/plot/Plots.h"
+#include "command/scene/Scene.h"
+
+#include <cstdio>
+#include <iostream>
+
+namespace runner {
+namespace {
+
+std::vector<Plot> plotsOf(const std::string& name, MakePlots make) {
+  Progress progress("plotting " + name);
+  return make([&](double fraction) { progress.update(fraction); });
+}
+
+nlohmann::ordered_json jsonOf(const Plot& plot, const PlotOptions& options, bool hasPictures) {
+  nlohmann::ordered_json series = nlohmann::ordered_json::array();
+  for (const PlotSeries& one : plot.series) {
+    if (!one.x.empty()) series.push_back({{"name", one.name}, {"points", one.x.size()}});
+  }
+  nlohmann::ordered_json files = {options.directory + "/" + plot.name + ".csv"};
+  for (const char* const suffix : {".svg", ".png"}) {
+    if (hasPictures) files.push_back(options.directory + "/" + plot.name + suffix);
+  }
+  return {{"name", plot.name}, {"title", plot.title}, {"x", plot.xColumn},
+          {"y", plot.yColumn}, {"series", series},    {"files", files}};
+}
+
+}  // namespace
+
+std::vector<std::string> plotWords() {
+  std::vector<std::string> words;
+  for (const auto& [name, make] : plotNames()) words.push_back(name);
+  words.emplace_back("all");
+  return words;
+}
+
+void makePlots(const PlotOptions& options) {
+  JsonOutput output(options.json);
+  PlotFiles files(options.directory);
+  nlohmann::ordered_json plots = nlohmann::ordered_json::array();
+  for (const auto& [name, make] : plotNames()) {
+    if (options.name != "all" && options.name != name) continue;
+    for (const Plot& plot : plotsOf(name, make)) {
+      files.write(plot);
+      plots.push_back(jsonOf(plot, options, files.hasPictures()));
+      if (output.ownsStandardOutput()) continue;
+      std::printf("%s/%s.csv%s\n", options.directory.c_str(), plot.name.c_str(),
+                  files.hasPictures() ? ", .svg, .png" : "");
+    }
+  }
+  output.write({{"precision", nameOf(ownPrecision)}, {"pictures", files.hasPictures()}, {"plots", plots}});
+  if (!files.hasPictures()) {
+    std::cerr << "wetcloth: no gnuplot, so no pictures, only tables (Debian: apt install gnuplot-nox)\n";
+  }
+}
+
+}  // namespace runner

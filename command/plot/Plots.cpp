@@ -1,0 +1,14 @@
+#include "command/plot/Plots.h"
+
+namespace runner {
+
+const std::vector<std::pair<std::string, MakePlots>>& plotNames() {
+  static const std::vector<std::pair<std::string, MakePlots>> names{{"mass", massPlots},
+                                                                    {"fall", fallPlots},
+                                                                    {"fps", fpsPlots},
+                                                                    {"wicking", wickingPlots},
+                                                                    {"springs", springsPlots}};
+  return names;
+}
+
+}  // namespace runner

@@ -1,0 +1,130 @@
+#include "command/render/ExportCommand.h"
+
+#include "command/cli/Errors.h"
+#include "command/cli/JsonOutput.h"
+#include "command/cli/StagedOutput.h"
+#include "command/render/RecordRun.h"
+
+#include "command/pictures/HtmlPage.h"
+#include "command/pictures/ObjFile.h"
+#include "command/pictures/PlySequence.h"
+#include "command/pictures/UsdFile.h"
+#include "command/pictures/VtkSeries.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+
+namespace runner {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Format {
+  std::string name;
+  std::string explanation;
+  StagedOutput::Kind kind;
+  std::string suffix;  ///< of a file
+  std::function<void(const pictures::Recording&, const std::string&)> write;
+};
+
+const std::vector<Format>& formats() {
+  using Kind = StagedOutput::Kind;
+  static const std::vector<Format> all{
+      {"ply", "a folder of Stanford PLY files", Kind::folder, "", pictures::writePlySequence},
+      {"obj_pc2", "a folder of Wavefront OBJ and PC2 point caches, for Blender's modifier Mesh Cache", Kind::folder, "",
+       pictures::writeObjAndPointCaches},
+      {"usda", "a file .usda, USD as text", Kind::file, ".usda", pictures::writeUsd},
+      {"vtk", "a folder of VTK PolyData with run.pvd, for ParaView", Kind::folder, "", pictures::writeVtkSeries},
+      {"html", "a page .html to look at the run in a browser", Kind::file, ".html", pictures::writeHtml}};
+  return all;
+}
+
+const Format& formatOf(const std::string& name) {
+  return *std::find_if(formats().begin(), formats().end(), [&](const Format& format) { return format.name == name; });
+}
+
+void requireFramesPerSecond(double framesPerSecond) {
+  if (framesPerSecond >= 0.01 && framesPerSecond <= 10000) return;
+  char value[32];
+  std::snprintf(value, sizeof value, "%g", framesPerSecond);
+  throw InputError("wetcloth: --fps = " + std::string(value) + ": must be in [0.01, 10000]");
+}
+
+/// Names and sizes of the files that are there, sorted.
+nlohmann::ordered_json filesIn(const fs::path& out) {
+  std::vector<fs::path> files;
+  if (fs::is_directory(out)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(out)) files.push_back(entry.path());
+  } else {
+    files.push_back(out);
+  }
+  std::sort(files.begin(), files.end());
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const fs::path& file : files) list.push_back({{"file", file.string()}, {"bytes", fs::file_size(file)}});
+  return list;
+}
+
+nlohmann::ordered_json jsonOf(const Scene& scene, const ExportOptions& options, const pictures::Recording& recording) {
+  nlohmann::ordered_json json;
+  json["scene"] = scene.name;
+  json["precision"] = nameOf(ownPrecision);
+  json["format"] = options.format;
+  json["frames"] = recording.frames.size();
+  json["fps"] = options.framesPerSecond;
+  json["end_s"] = recording.frames.back().time;
+  json["cloths"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < recording.cloths.size(); ++i) {
+    json["cloths"].push_back({{"name", recording.cloths[i].name},
+                              {"nodes", recording.frames.back().cloths[i].positions.size()},
+                              {"triangles", recording.cloths[i].triangles.size()}});
+  }
+  json["files"] = filesIn(options.out);
+  return json;
+}
+
+void write(const Format& format, const pictures::Recording& recording, const std::string& option,
+           StagedOutput& output) {
+  try {
+    format.write(recording, output.path());
+  } catch (const std::runtime_error& error) {
+    throw RunError(option + ": " + error.what());
+  }
+  output.commit();
+}
+
+}  // namespace
+
+std::vector<std::string> exportFormats() {
+  std::vector<std::string> names;
+  for (const Format& format : formats()) names.push_back(format.name);
+  return names;
+}
+
+std::string exportFormatsExplained() {
+  std::string text;
+  for (const Format& format : formats()) text += (text.empty() ? "" : "; ") + format.name + ": " + format.explanation;
+  return text;
+}
+
+void exportScene(const ExportOptions& options, char** arguments) {
+  requireFramesPerSecond(options.framesPerSecond);
+  const Format& format = formatOf(options.format);
+  const std::string option = "wetcloth: --out = \"" + onOneLine(options.out) + "\"";
+  if (format.kind == StagedOutput::Kind::file && fs::path(options.out).extension() != format.suffix) {
+    throw InputError(option + ": must end in " + format.suffix + " for --format " + format.name);
+  }
+  const Scene scene = readScene(options, arguments);
+  JsonOutput json(options.json);
+  StagedOutput output(option, options.out, format.kind);
+  const pictures::Recording recording = recordRun(scene, options.framesPerSecond);
+  write(format, recording, option, output);
+  const nlohmann::ordered_json result = jsonOf(scene, options, recording);
+  json.write(result);
+  if (json.ownsStandardOutput()) return;
+  std::printf("%zu frames of %s, %g per second: %s\n", recording.frames.size(), scene.name.c_str(),
+              options.framesPerSecond, options.out.c_str());
+}
+
+}  // namespace runner

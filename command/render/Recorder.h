@@ -1,0 +1,30 @@
+#pragma once
+
+#include "command/scene/SceneWorld.h"
+
+#include "command/pictures/Recording.h"
+
+#include <vector>
+
+namespace runner {
+
+/// Tells what pictures need to know of a world that runs, in the plain numbers of pictures::Recording.
+class Recorder {
+ public:
+  /// @param world before its first step: its links are at rest
+  explicit Recorder(const SceneWorld& world);
+
+  const pictures::Scenery& scenery() const { return m_scenery; }
+  const std::vector<pictures::ClothShape>& cloths() const { return m_cloths; }
+
+  /// The world as it is now, and the drops that are falling from its cloths. Reuses the memory of `frame`.
+  /// @param world the same one, or another of the same scene
+  void take(const SceneWorld& world, double time, pictures::Frame& frame) const;
+
+ private:
+  pictures::Scenery m_scenery;
+  std::vector<pictures::ClothShape> m_cloths;
+  std::vector<std::vector<float>> m_restLengths;  // of each cloth's links [m]
+};
+
+}  // namespace runner

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "command/pictures/Colouring.h"
+#include "command/pictures/Recording.h"
+
+#include <string>
+#include <vector>
+
+namespace runner {
+
+/// A run to be compared with others in one picture.
+struct Panel {
+  std::string heading;  ///< empty: none
+  pictures::Recording recording;
+};
+
+/// What is to be made of recorded runs.
+struct RenderJob {
+  std::string path;            ///< where to write
+  std::vector<Panel> panels;   ///< side by side; all have frames at the same times
+  int width = 0;               ///< of a picture with all panels [pixels]
+  int height = 0;              ///< [pixels]
+  double framesPerSecond = 0;  ///< of a film
+  pictures::Colouring colouring = pictures::Colouring::fabric;
+};
+
+/// What came of it.
+struct RenderResult {
+  int width = 0;   ///< of what was written [pixels]; 0: it has no size of its own
+  int height = 0;  ///< [pixels]
+  double secondsOfDrawing = 0;
+  std::string renderer;  ///< empty: nothing was drawn
+};
+
+}  // namespace runner

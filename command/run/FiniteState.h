@@ -1,0 +1,10 @@
+#pragma once
+
+#include "command/scene/SceneWorld.h"
+
+namespace runner {
+
+/// Throws RunError that says when, if a position or velocity is no longer finite. @param step number of the last one
+void requireFinite(const SceneWorld& world, int step);
+
+}  // namespace runner

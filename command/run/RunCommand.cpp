@@ -1,0 +1,165 @@
+#include "command/run/RunCommand.h"
+
+#include "command/cli/Errors.h"
+#include "command/cli/JsonOutput.h"
+#include "command/cli/Progress.h"
+#include "command/run/Checkpoint.h"
+#include "command/run/DripRecord.h"
+#include "command/run/FiniteState.h"
+#include "command/run/FrameWriter.h"
+#include "command/run/RunReport.h"
+#include "command/scene/Quality.h"
+#include "command/scene/SceneWorld.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+namespace runner {
+namespace {
+
+double secondsOf(SceneWorld& world) {
+  const auto start = std::chrono::steady_clock::now();
+  world.step();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Steps the scene and, beside it, the same scene in plain Bullet. The two take turns, so that whatever else the
+/// machine does slows both.
+class Run {
+ public:
+  /// @param steps  of the whole run
+  Run(const Scene& scene, int steps) : m_wet(scene), m_plain(scene, SceneWorld::Kind::plainBullet), m_drips(steps) {}
+
+  const SceneWorld& world() const { return m_wet; }
+  const DripRecord& drips() const { return m_drips; }
+  int steps() const { return m_steps; }
+  void finish() { m_wet.finish(); }
+  RunTimes times() const {
+    return {m_steps, 1e3 * m_wetSeconds / std::max(1, m_steps), 1e3 * m_plainSeconds / std::max(1, m_plainSteps)};
+  }
+
+  void step() {
+    m_wetSeconds += secondsOf(m_wet);
+    ++m_steps;
+    requireFinite(m_wet, m_steps);
+    m_drips.note(m_wet);
+    if (!m_plain.isFinite()) return;
+    m_plainSeconds += secondsOf(m_plain);
+    ++m_plainSteps;
+  }
+
+  /// Fills in how far the run is. Throws RunError when this scene's state cannot be saved.
+  void save(Checkpoint& checkpoint) const {
+    std::ostringstream state;
+    try {
+      m_wet.save(state);
+    } catch (const wetcloth::StateError& error) {
+      throw RunError(std::string("wetcloth: --checkpoint: ") + error.what());
+    }
+    checkpoint.state = state.str();
+    checkpoint.progress = {{"steps", m_steps},
+                           {"plain_steps", m_plainSteps},
+                           {"wet_seconds", m_wetSeconds},
+                           {"plain_seconds", m_plainSeconds},
+                           {"drips", m_drips.progress()}};
+  }
+  /// Goes on from there; plain Bullet, which is there for its time alone, from where the wet cloth is. Throws
+  /// wetcloth::StateError, or a JSON exception.
+  void restore(const Checkpoint& checkpoint) {
+    const nlohmann::ordered_json& progress = checkpoint.progress;
+    m_steps = progress.at("steps").get<int>();
+    m_plainSteps = progress.at("plain_steps").get<int>();
+    m_wetSeconds = progress.at("wet_seconds").get<double>();
+    m_plainSeconds = progress.at("plain_seconds").get<double>();
+    m_drips.goOnFrom(progress.at("drips"));
+    std::istringstream state(checkpoint.state);
+    m_wet.restore(state, m_steps);
+    m_plain.continueFrom(m_wet);
+  }
+
+ private:
+  SceneWorld m_wet;
+  SceneWorld m_plain;
+  DripRecord m_drips;
+  int m_steps = 0;
+  int m_plainSteps = 0;
+  double m_wetSeconds = 0;
+  double m_plainSeconds = 0;
+};
+
+/// None when the scene decides by itself. Throws InputError when nothing that was measured is within the budget.
+std::optional<SteppingChoice> chooseStepping(const RunOptions& options, Scene& scene) {
+  if (!options.errorBudget) {
+    if (scene.quality.empty()) return std::nullopt;
+    return steppingWithin(scene, allowedError(valueOf(qualityNames(), scene.quality)));
+  }
+  const SteppingChoice choice = steppingWithin(scene, *options.errorBudget);
+  if (!(choice.largestError() <= *options.errorBudget)) {
+    char text[240];
+    std::snprintf(text, sizeof text,
+                  "wetcloth: --error-budget = %g: must be at least %.2g for this scene, which %s of %s allows",
+                  *options.errorBudget, choice.largestError(), choice.worst().study.study.c_str(),
+                  choice.worst().study.method.c_str());
+    throw InputError(text);
+  }
+  apply(choice, scene);
+  scene.quality = "error budget";
+  return choice;
+}
+
+void resume(Run& run, const std::string& path, const nlohmann::ordered_json& identity) {
+  const Checkpoint checkpoint = readCheckpoint(path, identity);
+  try {
+    run.restore(checkpoint);
+  } catch (const std::exception& error) {
+    throw InputError(onOneLine("wetcloth: --resume = \"" + path + "\": " + error.what()));
+  }
+}
+
+/// The steps from where the run is to its end.
+void stepToEnd(Run& run, int steps, const RunOptions& options, const nlohmann::ordered_json& identity,
+               FrameWriter& frames) {
+  Progress progress("running " + run.world().scene().name);
+  frames.offer(run.world(), run.steps());
+  while (run.steps() < steps) {
+    run.step();
+    frames.offer(run.world(), run.steps());
+    if (!options.checkpoint.empty() && run.steps() % options.every == 0) {
+      Checkpoint checkpoint;
+      checkpoint.run = identity;
+      run.save(checkpoint);
+      writeCheckpoint(options.checkpoint, checkpoint);
+    }
+    progress.update(static_cast<double>(run.steps()) / steps);
+  }
+  frames.write(run.world());
+}
+
+}  // namespace
+
+void runScene(const RunOptions& options, char** arguments) {
+  Scene scene = readScene(options, arguments);
+  const std::optional<SteppingChoice> stepping = chooseStepping(options, scene);
+  JsonOutput output(options.json);
+  const int steps = std::max(1, static_cast<int>(std::lround(scene.duration / scene.step)));
+  FrameWriter frames(options.frames, options.frameCount, steps);
+  if (!options.checkpoint.empty()) requireCheckpointPlace(options.checkpoint);
+  const nlohmann::ordered_json identity = runIdentity(options, scene, steps);
+  Run run(scene, steps);
+  if (!options.resume.empty()) resume(run, options.resume, identity);
+  stepToEnd(run, steps, options, identity, frames);
+  run.finish();
+  RunReport report(run.world(), run.times(), run.drips());
+  if (stepping) report.explain(*stepping);
+  output.write(report.json());
+  if (output.ownsStandardOutput()) return;
+  std::fputs(report.summary().c_str(), stdout);
+  if (frames.isOn()) std::printf("%-15s%d pictures in %s\n", "frames", frames.count(), options.frames.c_str());
+}
+
+}  // namespace runner

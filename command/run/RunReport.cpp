@@ -1,0 +1,179 @@
+#include "command/run/RunReport.h"
+
+#include "command/cli/NearestWord.h"
+#include "command/run/StateHash.h"
+#include "command/scene/Quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace runner {
+namespace {
+
+// They have all looked at the same time.
+std::optional<wetcloth::AuditTotals> sumOf(const std::vector<wetcloth::CollisionAudit*>& audits) {
+  std::optional<wetcloth::AuditTotals> sum;
+  for (const wetcloth::CollisionAudit* audit : audits) {
+    const wetcloth::AuditTotals totals = audit->totals();
+    if (!sum) sum.emplace();
+    sum->vertexFace += totals.vertexFace;
+    sum->edgeEdge += totals.edgeEdge;
+    sum->candidatePairs += totals.candidatePairs;
+    sum->incompleteSubsteps = std::max(sum->incompleteSubsteps, totals.incompleteSubsteps);
+    sum->substeps = std::max(sum->substeps, totals.substeps);
+    sum->seconds = std::max(sum->seconds, totals.seconds);
+  }
+  return sum;
+}
+
+/// To a tenth of a gram, and no "-0.0" for what rounding has left below nothing.
+double tenthsOfGrams(double kilograms) {
+  const double tenths = std::round(1e4 * kilograms);
+  return tenths == 0 ? 0 : tenths / 10;
+}
+
+}  // namespace
+
+RunReport::RunReport(const SceneWorld& world, const RunTimes& times, const DripRecord& drips)
+    : m_scene(world.scene()),
+      m_times(times),
+      m_hash(stateHash(world)),
+      m_drips(drips),
+      m_audit(sumOf(world.audits())),
+      m_saturation(saturationOf(world)) {
+  for (const btSoftBody* body : world.bodies()) measureBody(*body);
+  for (const wetcloth::WetCloth* cloth : world.cloths()) measureCloth(*cloth);
+}
+
+void RunReport::measureBody(const btSoftBody& body) {
+  m_nodes += body.m_nodes.size();
+  m_links += body.m_links.size();
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    m_maxSpeed = std::max(m_maxSpeed, static_cast<double>(body.m_nodes[i].m_v.length()));
+  }
+  for (int i = 0; i < body.m_links.size(); ++i) {
+    const btSoftBody::Link& link = body.m_links[i];
+    const btScalar length = (link.m_n[1]->m_x - link.m_n[0]->m_x).length();
+    if (link.m_rl > 0) m_maxStretch = std::max(m_maxStretch, static_cast<double>(length / link.m_rl));
+  }
+}
+
+void RunReport::measureCloth(const wetcloth::WetCloth& cloth) {
+  for (int i = 0; i < cloth.nodeCount(); ++i) {
+    const double mass = cloth.dryMass(i) + cloth.held(i);
+    m_mass += mass;
+    for (int axis = 0; axis < 3; ++axis)
+      m_moment[axis] += mass * static_cast<double>(cloth.body().m_nodes[i].m_x[axis]);
+  }
+  const wetcloth::Ledger ledger = cloth.ledger();
+  m_ledger.initial += ledger.initial;
+  m_ledger.absorbed += ledger.absorbed;
+  m_ledger.evaporated += ledger.evaporated;
+  m_ledger.dripped += ledger.dripped;
+  m_ledger.held += ledger.held;
+  m_ledger.runOff += ledger.runOff;
+  for (const auto& effect : cloth.effects()) {
+    if (std::find(m_effects.begin(), m_effects.end(), effect->name()) == m_effects.end()) {
+      m_effects.emplace_back(effect->name());
+    }
+  }
+}
+
+nlohmann::ordered_json RunReport::json() const {
+  nlohmann::ordered_json json;
+  json["scene"] = m_scene.name;
+  json["file"] = m_scene.file;
+  json["world"] = nameOf(m_scene.world);
+  json["precision"] = nameOf(ownPrecision);
+  json["quality"] = qualityOf(m_scene);
+  json["steps"] = m_times.steps;
+  json["dt"] = m_scene.step;
+  json["substeps"] = m_scene.substeps;
+  json["iterations"] = m_scene.iterations;
+  if (m_stepping) {
+    for (const SteppingChoice::Expectation& expectation : m_stepping->expected) {
+      json["expected_errors"][expectation.study.study] = expectation.error;
+    }
+  }
+  json["nodes"] = m_nodes;
+  json["links"] = m_links;
+  json["effects"] = m_effects;
+  json["wall_ms_per_step"] = m_times.wetMilliseconds;
+  json["bullet_ms_per_step"] = m_times.plainMilliseconds;
+  json["ledger"] = {{"initial", m_ledger.initial}, {"absorbed", m_ledger.absorbed}, {"evaporated", m_ledger.evaporated},
+                    {"dripped", m_ledger.dripped}, {"held", m_ledger.held},         {"run_off", m_ledger.runOff}};
+  if (m_drips.isOn()) json["drips"] = m_drips.json();
+  json["saturation"] = {{"min", m_saturation.min}, {"mean", m_saturation.mean}, {"max", m_saturation.max}};
+  if (m_audit) {
+    json["audit"] = {{"vertex_face", m_audit->vertexFace},
+                     {"edge_edge", m_audit->edgeEdge},
+                     {"per_second", m_audit->perSecond()},
+                     {"incomplete_substeps", m_audit->incompleteSubsteps}};
+  }
+  json["centre_of_mass"] = {m_moment[0] / m_mass, m_moment[1] / m_mass, m_moment[2] / m_mass};
+  json["max_speed"] = m_maxSpeed;
+  json["max_stretch"] = m_maxStretch;
+  json["state_hash"] = m_hash;
+  return json;
+}
+
+std::string RunReport::waterLines() const {
+  char text[240];
+  std::snprintf(text, sizeof text, "%-15s%.1f g held = %.1f initial + %.1f absorbed - %.1f dripped - %.1f evaporated\n",
+                "water", tenthsOfGrams(m_ledger.held), tenthsOfGrams(m_ledger.initial),
+                tenthsOfGrams(m_ledger.absorbed), tenthsOfGrams(m_ledger.dripped), tenthsOfGrams(m_ledger.evaporated));
+  std::string lines = text + m_drips.line();
+  if (m_ledger.runOff > 0) {
+    std::snprintf(text, sizeof text, "%-15s%.3g g struck the cloth and were not taken in\n", "run-off",
+                  1e3 * m_ledger.runOff);
+    lines += text;
+  }
+  return lines;
+}
+
+std::string RunReport::steppingLine() const {
+  if (!m_stepping) return "";
+  std::string line;
+  for (const SteppingChoice::Expectation& expectation : m_stepping->expected) {
+    char text[120];
+    std::snprintf(text, sizeof text, "%s%s %.2g %%", line.empty() ? "" : ", ", expectation.study.study.c_str(),
+                  100 * expectation.error);
+    line += text;
+  }
+  return "measured error " + line + "\n";
+}
+
+std::string RunReport::auditLine() const {
+  if (!m_audit) return "";
+  char text[200];
+  std::snprintf(text, sizeof text, "%-15s%lld vertices through faces, %lld edges through edges (%.4g per second)\n",
+                "passages", m_audit->vertexFace, m_audit->edgeEdge, m_audit->perSecond());
+  return text;
+}
+
+std::string RunReport::summary() const {
+  char text[1600];
+  std::snprintf(
+      text, sizeof text,
+      "%-15s%s (%s, %s, %s)\n"
+      "%-15s%d of %.4g s (%.4g s), each %d substeps of %d iterations\n"
+      "%-15s%d nodes, %d links\n"
+      "%-15s%s\n"
+      "%-15s%.3f ms per step; plain Bullet %.3f ms (ratio %.2f)\n"
+      "%s"
+      "%-15s%.2f to %.2f, mean %.2f\n"
+      "%-15s(%.3f, %.3f, %.3f) m\n"
+      "%-15sspeed %.3g m/s, link length %.3f of its rest length\n"
+      "%-15s%s\n",
+      "scene", m_scene.name.c_str(), nameOf(m_scene.world).c_str(), nameOf(ownPrecision).c_str(),
+      qualityOf(m_scene).c_str(), "steps", m_times.steps, m_scene.step, m_times.steps * m_scene.step, m_scene.substeps,
+      m_scene.iterations, "mesh", m_nodes, m_links, "effects", m_effects.empty() ? "none" : joined(m_effects).c_str(),
+      "time", m_times.wetMilliseconds, m_times.plainMilliseconds,
+      m_times.plainMilliseconds > 0 ? m_times.wetMilliseconds / m_times.plainMilliseconds : 0., waterLines().c_str(),
+      "saturation", m_saturation.min, m_saturation.max, m_saturation.mean, "centre of mass", m_moment[0] / m_mass,
+      m_moment[1] / m_mass, m_moment[2] / m_mass, "largest", m_maxSpeed, m_maxStretch, "state hash", m_hash.c_str());
+  return text + steppingLine() + auditLine();
+}
+
+}  // namespace runner

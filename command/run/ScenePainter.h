@@ -1,0 +1,34 @@
+#pragma once
+
+#include "command/run/FrameShot.h"
+#include "command/run/Painting.h"
+#include "command/scene/Scene.h"
+
+#include <array>
+#include <vector>
+
+namespace runner {
+
+/// Node numbers at the corners of each face.
+std::vector<std::array<int, 3>> facesOf(const btSoftBody& body);
+
+void paintCloth(Painting& painting, const Camera& camera, const btSoftBody& body, const FrameShot::Cloth& cloth);
+
+/// The rod or line that a cloth hangs from, when its pinned nodes lie on one line.
+/// @param ground reached down to by an upright rod; may be null
+void paintRod(Painting& painting, const Camera& camera, const btSoftBody& body, const FrameShot::Cloth& cloth,
+              const Plane* ground);
+
+/// Spheres and boxes; planes are painted as the ground.
+void paintCollider(Painting& painting, const Camera& camera, const Collider& collider);
+
+/// The surface of the scene's water, as far as the cloths reach and somewhat farther.
+void paintWater(Painting& painting, const Camera& camera, const Scene& scene, const FrameShot& shot);
+
+/// The flat pieces that a sphere or box is painted with; none for a plane.
+std::vector<std::vector<btVector3>> surfaceOf(const Collider& collider);
+
+/// Points that stand for a collider when the camera is fitted.
+std::vector<btVector3> outlineOf(const Collider& collider);
+
+}  // namespace runner

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "command/scene/SceneWorld.h"
+
+#include <string>
+
+namespace runner {
+
+/// FNV-1a, 64 bits, over the bytes of all positions, velocities and water: the same scene and the same binary give
+/// the same sixteen hexadecimal digits, any number of times.
+std::string stateHash(const SceneWorld& world);
+
+}  // namespace runner

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "command/scene/Scene.h"
+
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+class btDeformableBodySolver;
+class btDeformableLagrangianForce;
+class btMultiBodyConstraintSolver;
+
+namespace runner {
+
+/// One of Bullet's three worlds with soft bodies, and all that lives in it: nothing to delete by hand, in no order.
+class BulletWorld {
+ public:
+  struct Settings {
+    WorldKind kind = WorldKind::softRigid;
+    btVector3 gravity = btVector3(0, btScalar(-9.81), 0);
+    int iterations = 10;    ///< of the soft bodies' position solver, and of the contacts' solver
+    bool implicit = false;  ///< of the deformable world
+  };
+
+  explicit BulletWorld(const Settings& settings);
+  ~BulletWorld();
+  BulletWorld(const BulletWorld&) = delete;
+  BulletWorld& operator=(const BulletWorld&) = delete;
+
+  btDiscreteDynamicsWorld& world() { return *m_world; }
+  btSoftBodyWorldInfo& worldInfo() { return *m_worldInfo; }
+
+  /// Takes the body into the world. In the deformable world it gets gravity, and springs if there are any.
+  btSoftBody& add(std::unique_ptr<btSoftBody> body, const DeformableSprings* springs = nullptr);
+  /// A body that nothing moves.
+  const btCollisionObject& addStatic(std::unique_ptr<btCollisionShape> shape, const btTransform& place);
+  void substep(btScalar dt) { m_world->stepSimulation(dt, 0); }
+
+ private:
+  void makeSoftRigid();
+  void makeSoftMultiBody();
+  void makeDeformable();
+  void addForce(btSoftBody& body, std::unique_ptr<btDeformableLagrangianForce> force);
+
+  Settings m_settings;
+  std::unique_ptr<btCollisionConfiguration> m_configuration;
+  std::unique_ptr<btCollisionDispatcher> m_dispatcher;
+  std::unique_ptr<btBroadphaseInterface> m_broadphase;
+  std::unique_ptr<btDeformableBodySolver> m_deformableSolver;
+  std::unique_ptr<btConstraintSolver> m_solver;
+  std::unique_ptr<btDiscreteDynamicsWorld> m_world;
+  btSoftBodyWorldInfo* m_worldInfo = nullptr;
+  std::function<void(btSoftBody*)> m_addSoftBody;
+  std::function<void(btSoftBody*)> m_removeSoftBody;
+  std::vector<std::unique_ptr<btDeformableLagrangianForce>> m_forces;
+  std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
+  std::vector<std::unique_ptr<btRigidBody>> m_rigidBodies;
+  std::vector<std::unique_ptr<btSoftBody>> m_softBodies;
+};
+
+}  // namespace runner

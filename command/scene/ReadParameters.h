@@ -1,0 +1,58 @@
+#pragma once
+
+#include "command/scene/JsonCursor.h"
+#include "command/scene/Scene.h"
+
+#include <string>
+#include <utility>
+
+namespace runner {
+
+inline btVector3 readVector(const JsonCursor& cursor, const Range& range = Range::finite()) {
+  const std::array<double, 3> xyz = cursor.triple(range);
+  return btVector3(btScalar(xyz[0]), btScalar(xyz[1]), btScalar(xyz[2]));
+}
+
+/// Overwrites a default when the key is there.
+inline void readNumber(const JsonCursor& object, const char* key, const Range& range, double& value) {
+  if (const auto found = object.find(key)) value = found->number(range);
+}
+inline void readVector(const JsonCursor& object, const char* key, btVector3& value) {
+  if (const auto found = object.find(key)) value = readVector(*found);
+}
+
+/// A vector that tells where to.
+btVector3 readDirection(const JsonCursor& cursor);
+inline void readDirection(const JsonCursor& object, const char* key, btVector3& value) {
+  if (const auto found = object.find(key)) value = readDirection(*found);
+}
+
+enum class Mode { physical, paper };
+
+/// The defaults of an effect: the library's own, or the paper's letter by letter.
+inline Mode readMode(const JsonCursor& cursor) {
+  static const std::vector<std::pair<std::string, Mode>> modes{{"physical", Mode::physical}, {"paper", Mode::paper}};
+  const auto mode = cursor.find("mode");
+  return mode ? mode->choice(modes) : Mode::physical;
+}
+
+/// Complains about an effect that needs water in a scene that has none.
+inline void requireWater(const JsonCursor& effect, const Scene& scene) {
+  if (!scene.water) effect.complain("the scene must say where its water is, /water");
+}
+
+/// One value for each node, one for all, or `{"below_m": y}`. @param nodes of the cloth
+wetcloth::Exposure readExposure(JsonCursor cursor, int nodes);
+
+/// "velocity_m_s", the same everywhere, or "gust" of an effect; one of the two must be there.
+wetcloth::WindField readWindField(const JsonCursor& effect);
+
+/// Adds an effect of class E with these parameters.
+template <class E>
+AddEffect addEffect(typename E::Parameters parameters) {
+  return [parameters = std::move(parameters)](wetcloth::WetCloth& cloth, const Colliders&) -> wetcloth::Effect& {
+    return cloth.add<E>(parameters);
+  };
+}
+
+}  // namespace runner

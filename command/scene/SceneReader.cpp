@@ -1,0 +1,305 @@
+#include "command/scene/SceneReader.h"
+
+#include "command/cli/Errors.h"
+#include "command/scene/EffectReader.h"
+#include "command/scene/JsonCursor.h"
+#include "command/scene/ObjReader.h"
+#include "command/scene/Quality.h"
+#include "command/scene/ReadParameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+namespace runner {
+namespace {
+
+using wetcloth::ClothPatch;
+
+constexpr int mostNodesAlongAnEdge = 4096;
+constexpr int mostNodes = 1000000;
+
+ClothPatch readPatch(JsonCursor cursor) {
+  cursor.expectObject(keys::patch);
+  ClothPatch patch;
+  if (const auto columns = cursor.find("columns")) patch.columns = columns->integer(2, mostNodesAlongAnEdge);
+  if (const auto rows = cursor.find("rows")) patch.rows = rows->integer(2, mostNodesAlongAnEdge);
+  if (patch.nodeCount() > mostNodes) cursor.complain("columns x rows must be at most 1000000");
+  readVector(cursor, "origin_m", patch.origin);
+  patch.edgeU = readVector(cursor.at("edge_u_m"));
+  patch.edgeV = readVector(cursor.at("edge_v_m"));
+  const btScalar lengths = patch.edgeU.length() * patch.edgeV.length();
+  if (!(patch.edgeU.cross(patch.edgeV).length() > btScalar(1e-6) * lengths)) {
+    cursor.at("edge_v_m").reject("across edge_u_m; the two must not be parallel, nor of length 0");
+  }
+  readNumber(cursor, "mechanical_stiffness", Range::positiveFraction(), patch.mechanicalStiffness);
+  readNumber(cursor, "shear_stiffness", Range::positiveFraction(), patch.shearStiffness);
+  readNumber(cursor, "flexion_stiffness", Range::positiveFraction(), patch.flexionStiffness);
+  return patch;
+}
+
+TriangleMesh readMesh(const JsonCursor& cursor) {
+  const std::string name = cursor.text();
+  try {
+    return readObj((std::filesystem::path(cursor.file()).parent_path() / name).string());
+  } catch (const std::invalid_argument& error) {
+    cursor.complain(error.what());
+  }
+}
+
+wetcloth::Fabric readPreset(const JsonCursor& cursor) {
+  std::vector<std::pair<std::string, wetcloth::Fabric>> presets;
+  for (const wetcloth::Fabric& fabric : wetcloth::Fabric::presets()) presets.emplace_back(fabric.name, fabric);
+  return cursor.choice(presets);
+}
+
+wetcloth::Fabric readFabric(JsonCursor cursor) {
+  if (cursor.isText()) return readPreset(cursor);
+  if (!cursor.isObject()) cursor.reject("the name of a fabric, or an object that describes one");
+  cursor.expectObject(keys::fabric);
+  wetcloth::Fabric fabric;
+  if (const auto preset = cursor.find("preset")) {
+    fabric = readPreset(*preset);
+  } else {
+    cursor.at("capacity_kg_per_kg");
+    cursor.at("time_constant_s");
+    cursor.at("areal_density_kg_m2");
+  }
+  if (const auto name = cursor.find("name")) fabric.name = name->text();
+  readNumber(cursor, "capacity_kg_per_kg", Range::positive(), fabric.capacity);
+  readNumber(cursor, "time_constant_s", Range::positive(), fabric.timeConstant);
+  readNumber(cursor, "areal_density_kg_m2", Range::positive(), fabric.arealDensity);
+  if (const auto colour = cursor.find("colour")) fabric.dryColour = colour->triple(Range::fraction());
+  readNumber(cursor, "roughness", Range::fraction(), fabric.dryRoughness);
+  return fabric;
+}
+
+std::vector<int> readNodes(const JsonCursor& cursor, int nodes) {
+  std::vector<int> indices;
+  for (const JsonCursor& element : cursor.elements()) indices.push_back(element.integer(0, nodes - 1));
+  return indices;
+}
+
+const std::vector<std::pair<std::string, ClothPatch::Edge>>& edgeNames() {
+  using Edge = ClothPatch::Edge;
+  static const std::vector<std::pair<std::string, Edge>> names{
+      {"left", Edge::left}, {"right", Edge::right}, {"bottom", Edge::bottom}, {"top", Edge::top}};
+  return names;
+}
+
+void readPatchPins(const JsonCursor& cursor, ClothPatch& patch) {
+  using Corner = ClothPatch::Corner;
+  static const std::vector<std::pair<std::string, Corner>> corners{{"bottom_left", Corner::bottomLeft},
+                                                                   {"bottom_right", Corner::bottomRight},
+                                                                   {"top_left", Corner::topLeft},
+                                                                   {"top_right", Corner::topRight}};
+  if (const auto list = cursor.find("corners")) {
+    for (const JsonCursor& corner : list->elements()) patch.pinnedCorners.push_back(corner.choice(corners));
+  }
+  if (const auto list = cursor.find("edges")) {
+    for (const JsonCursor& edge : list->elements()) patch.pinnedEdges.push_back(edge.choice(edgeNames()));
+  }
+  if (const auto list = cursor.find("nodes")) patch.pinnedNodes = readNodes(*list, patch.nodeCount());
+}
+
+void readPins(JsonCursor cursor, ClothScene& cloth) {
+  cursor.expectObject(keys::pins);
+  if (auto* patch = std::get_if<ClothPatch>(&cloth.shape)) {
+    readPatchPins(cursor, *patch);
+    return;
+  }
+  for (const char* key : {"corners", "edges"}) {
+    if (const auto found = cursor.find(key)) found->complain("an OBJ has no corners or edges, pin its \"nodes\"");
+  }
+  const auto& mesh = std::get<TriangleMesh>(cloth.shape);
+  if (const auto list = cursor.find("nodes")) {
+    cloth.pinnedNodes = readNodes(*list, static_cast<int>(mesh.vertices.size()));
+  }
+}
+
+void readSprings(const JsonCursor& cursor, WorldKind world, DeformableSprings& springs) {
+  for (const char* key : {"spring_stiffness_n_m", "bending_stiffness_n_m", "spring_damping_n_s_m"}) {
+    const auto found = cursor.find(key);
+    if (found && world != WorldKind::deformable) {
+      found->complain("only the world \"deformable\" reads it; elsewhere use the effect hooke_springs");
+    }
+  }
+  readNumber(cursor, "spring_stiffness_n_m", Range::positive(), springs.stiffness);
+  readNumber(cursor, "bending_stiffness_n_m", Range::notNegative(), springs.bendingStiffness);
+  readNumber(cursor, "spring_damping_n_s_m", Range::notNegative(), springs.damping);
+}
+
+void readDamping(const JsonCursor& cursor, WorldKind world, ClothScene& cloth) {
+  const auto found = cursor.find("damping");
+  if (!found) return;
+  if (world == WorldKind::deformable) found->complain("the world \"deformable\" does not read it");
+  cloth.damping = found->number(Range::fraction());
+}
+
+/// Bullet's own names, as they stand in btSoftBody::fCollision.
+int readCollisionFlags(const JsonCursor& cursor) {
+  using Flag = btSoftBody::fCollision;
+  static const std::vector<std::pair<std::string, int>> names{
+      {"SDF_RS", Flag::SDF_RS},   {"CL_RS", Flag::CL_RS},    {"SDF_RD", Flag::SDF_RD}, {"SDF_RDF", Flag::SDF_RDF},
+      {"SDF_RDN", Flag::SDF_RDN}, {"VF_SS", Flag::VF_SS},    {"CL_SS", Flag::CL_SS},   {"CL_SELF", Flag::CL_SELF},
+      {"VF_DD", Flag::VF_DD},     {"SDF_MDF", Flag::SDF_MDF}};
+  int flags = 0;
+  for (const JsonCursor& flag : cursor.elements()) flags |= flag.choice(names);
+  return flags;
+}
+
+void readCollisions(const JsonCursor& cursor, ClothScene& cloth) {
+  if (const auto flags = cursor.find("collisions")) cloth.collisions = readCollisionFlags(*flags);
+  if (const auto self = cursor.find("self_collision")) cloth.selfCollision = self->boolean();
+  if (const auto clusters = cursor.find("clusters")) cloth.clusters = clusters->integer(0, cloth.nodeCount());
+}
+
+TwistScene readTwist(JsonCursor cursor, const ClothScene& cloth) {
+  cursor.expectObject(keys::twist);
+  const auto* patch = std::get_if<ClothPatch>(&cloth.shape);
+  if (!patch) cursor.complain("an OBJ has no edges to turn, a patch does");
+  TwistScene twist;
+  twist.edge = cursor.at("edge").choice(edgeNames());
+  if (std::count(patch->pinnedEdges.begin(), patch->pinnedEdges.end(), twist.edge) == 0) {
+    cursor.at("edge").complain("must be one of the pinned edges, /pins/edges");
+  }
+  readNumber(cursor, "turns_per_s", Range::finite(), twist.turnsPerSecond);
+  readNumber(cursor, "turns", Range::notNegative(), twist.turns);
+  return twist;
+}
+
+MotionScene readMotion(JsonCursor cursor, const ClothScene& cloth) {
+  cursor.expectObject(keys::motion);
+  if (!cloth.hasPins()) cursor.complain("moves the cloth's pins, and it has none");
+  if (cloth.twist) cursor.complain("must not be there beside twist, which moves pins, too");
+  MotionScene motion;
+  for (const JsonCursor& time : cursor.at("times_s").elements()) {
+    if (!motion.times.empty() && !(time.number(Range::notNegative()) > motion.times.back())) {
+      time.complain("must be later than the time before it");
+    }
+    motion.times.push_back(time.number(Range::notNegative()));
+  }
+  if (motion.times.empty()) cursor.at("times_s").reject("an array with at least one time");
+  for (const JsonCursor& offset : cursor.at("offsets_m").elements()) {
+    motion.offsets.push_back(readVector(offset));
+  }
+  if (motion.offsets.size() != motion.times.size()) {
+    cursor.at("offsets_m").complain("must have one offset for each of times_s, " + std::to_string(motion.times.size()));
+  }
+  return motion;
+}
+
+ClothScene readCloth(JsonCursor cursor, const Scene& scene) {
+  cursor.expectObject(keys::cloth);
+  ClothScene cloth;
+  if (const auto name = cursor.find("name")) cloth.name = name->text();
+  if (cursor.exactlyOneOf({"patch", "obj"}) == "patch") {
+    cloth.shape = readPatch(cursor.at("patch"));
+  } else {
+    cloth.shape = readMesh(cursor.at("obj"));
+  }
+  cloth.fabric = readFabric(cursor.at("fabric"));
+  if (auto* patch = std::get_if<ClothPatch>(&cloth.shape)) patch->arealDensity = cloth.fabric.arealDensity;
+  if (const auto pins = cursor.find("pins")) readPins(*pins, cloth);
+  readNumber(cursor, "initial_saturation", Range::fraction(), cloth.initialSaturation);
+  readNumber(cursor, "friction", Range::fraction(), cloth.friction);
+  readDamping(cursor, scene.world, cloth);
+  readNumber(cursor, "margin_m", Range::positive(), cloth.margin);
+  readCollisions(cursor, cloth);
+  if (const auto twist = cursor.find("twist")) cloth.twist = readTwist(*twist, cloth);
+  if (const auto motion = cursor.find("motion")) cloth.motion = readMotion(*motion, cloth);
+  readSprings(cursor, scene.world, cloth.springs);
+  if (const auto effects = cursor.find("effects")) cloth.effects = readEffects(*effects, {scene, cloth});
+  return cloth;
+}
+
+Plane readPlane(JsonCursor cursor) {
+  cursor.expectObject(keys::plane);
+  Plane plane{btVector3(0, 1, 0), 0};
+  if (const auto normal = cursor.find("normal")) plane.normal = readDirection(*normal).normalized();
+  readNumber(cursor, "offset_m", Range::finite(), plane.offset);
+  return plane;
+}
+
+Box readBox(JsonCursor cursor) {
+  cursor.expectObject(keys::box);
+  return {readVector(cursor.at("centre_m")), readVector(cursor.at("half_extents_m"), Range::positive())};
+}
+
+Sphere readSphere(JsonCursor cursor) {
+  cursor.expectObject(keys::sphere);
+  return {readVector(cursor.at("centre_m")), cursor.at("radius_m").number(Range::positive())};
+}
+
+Collider readCollider(JsonCursor cursor) {
+  cursor.expectObject(keys::collider);
+  const std::string kind = cursor.exactlyOneOf({"plane", "box", "sphere"});
+  if (kind == "plane") return readPlane(cursor.at(kind));
+  if (kind == "box") return readBox(cursor.at(kind));
+  return readSphere(cursor.at(kind));
+}
+
+WaterScene readWater(JsonCursor cursor) {
+  cursor.expectObject(keys::water);
+  WaterScene water;
+  water.level = cursor.at("level_m").number(Range::finite());
+  readNumber(cursor, "density_kg_m3", Range::positive(), water.density);
+  return water;
+}
+
+CameraScene readCamera(JsonCursor cursor) {
+  cursor.expectObject(keys::camera);
+  CameraScene camera;
+  if (const auto direction = cursor.find("direction")) camera.direction = readDirection(*direction).normalized();
+  readNumber(cursor, "field_of_view_deg", Range{5, 120, true, "from 5 to 120"}, camera.fieldOfView);
+  return camera;
+}
+
+void readWorld(const JsonCursor& cursor, Scene& scene) {
+  scene.world = cursor.at("world").choice(worldNames());
+  if (const auto precision = cursor.find("precision")) scene.precision = precision->choice(precisionNames());
+  readVector(cursor, "gravity_m_s2", scene.gravity);
+  readNumber(cursor, "step_s", Range{0, 1, false, "in (0, 1]"}, scene.step);
+  if (const auto substeps = cursor.find("substeps")) scene.substeps = substeps->integer(1, 1000);
+  if (const auto iterations = cursor.find("iterations")) scene.iterations = iterations->integer(1, 10000);
+  if (const auto quality = cursor.find("quality")) {
+    quality->choice(qualityNames());
+    scene.quality = quality->text();
+  }
+  readNumber(cursor, "duration_s", Range{0, 3600, false, "in (0, 3600]"}, scene.duration);
+  if (const auto implicit = cursor.find("implicit")) {
+    scene.implicit = implicit->boolean();
+    if (scene.implicit && scene.world != WorldKind::deformable) {
+      implicit->complain("only the world \"deformable\" has an implicit solver");
+    }
+  }
+}
+
+}  // namespace
+
+Scene readScene(const std::string& file) {
+  const Json json = loadJson(file);
+  JsonCursor cursor(json, file);
+  cursor.expectObject(keys::scene);
+  Scene scene;
+  scene.file = file;
+  scene.name = std::filesystem::path(file).stem().string();
+  for (const char* key : {"$schema", "description"}) {
+    if (const auto found = cursor.find(key)) found->text();
+  }
+  if (const auto name = cursor.find("name")) scene.name = name->text();
+  readWorld(cursor, scene);
+  if (const auto colliders = cursor.find("colliders")) {
+    for (const JsonCursor& collider : colliders->elements()) scene.colliders.push_back(readCollider(collider));
+  }
+  if (const auto water = cursor.find("water")) scene.water = readWater(*water);
+  for (const JsonCursor& cloth : cursor.at("cloths").elements()) {
+    scene.cloths.push_back(readCloth(cloth, scene));
+  }
+  if (scene.cloths.empty()) cursor.at("cloths").reject("an array with at least one cloth");
+  if (const auto camera = cursor.find("camera")) scene.camera = readCamera(*camera);
+  return scene;
+}
+
+}  // namespace runner

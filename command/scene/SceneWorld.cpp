@@ -1,0 +1,167 @@
+#include "command/scene/SceneWorld.h"
+
+#include "command/cli/Errors.h"
+#include "command/scene/MeshBody.h"
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace runner {
+namespace {
+
+BulletWorld::Settings settingsOf(const Scene& scene) {
+  return {scene.world, scene.gravity, scene.iterations, scene.implicit};
+}
+
+std::unique_ptr<btSoftBody> makeBody(const ClothScene& cloth, btSoftBodyWorldInfo& worldInfo) {
+  if (const auto* patch = std::get_if<wetcloth::ClothPatch>(&cloth.shape)) return patch->build(worldInfo);
+  auto body = makeMeshBody(std::get<TriangleMesh>(cloth.shape), cloth.fabric.arealDensity, worldInfo);
+  for (const int node : cloth.pinnedNodes) body->setMass(node, 0);
+  return body;
+}
+
+/// Calls `action`; what the library refuses is bad input at `pointer`.
+template <class Action>
+void atPointer(const Scene& scene, const std::string& pointer, Action action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    throw InputError(onOneLine(scene.file + ": " + pointer + ": " + error.what()));
+  }
+}
+
+/// Its length too: a speed that btScalar cannot hold makes the next step's numbers infinite.
+bool isFinite(const btVector3& vector) { return std::isfinite(vector.length2()); }
+
+/// Soft bodies collide with convex shapes only, so a plane becomes the top of a large, thick box.
+constexpr double planeHalfExtent = 50;
+
+}  // namespace
+
+SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_world(settingsOf(scene)), m_drops(scene) {
+  if (kind == Kind::wet) m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_world.world());
+  if (scene.water) addWater(*scene.water);
+  for (const Collider& collider : scene.colliders) addCollider(collider);
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    const std::string pointer = "/cloths/" + std::to_string(i);
+    atPointer(scene, pointer, [&] { addCloth(scene.cloths[i]); });
+    if (kind == Kind::plainBullet) continue;
+    atPointer(scene, pointer, [&] { m_cloths.push_back(&m_wetWorld->add(m_bodies.back(), scene.cloths[i].fabric)); });
+    addEffects(i, *m_cloths.back());
+    m_cloths.back()->setSaturation(scene.cloths[i].initialSaturation);
+  }
+}
+
+void SceneWorld::addCloth(const ClothScene& cloth) {
+  std::unique_ptr<btSoftBody> body = makeBody(cloth, m_world.worldInfo());
+  body->m_cfg.kDF = btScalar(cloth.friction);
+  body->m_cfg.kDP = btScalar(cloth.damping);
+  body->getCollisionShape()->setMargin(btScalar(cloth.margin));
+  if (cloth.clusters > 0) body->generateClusters(cloth.clusters);
+  body->setSelfCollision(cloth.selfCollision);
+  const bool bulletPulls = !cloth.hasEffect("hooke_springs");
+  btSoftBody& added = m_world.add(std::move(body), bulletPulls ? &cloth.springs : nullptr);
+  if (cloth.collisions) added.m_cfg.collisions = *cloth.collisions;
+  if (cloth.twist) m_twists.emplace_back(added, std::get<wetcloth::ClothPatch>(cloth.shape), *cloth.twist);
+  if (cloth.motion) m_motions.emplace_back(added, *cloth.motion);
+  m_bodies.push_back(&added);
+}
+
+void SceneWorld::addWater(const WaterScene& water) {
+  btSoftBodyWorldInfo& info = m_world.worldInfo();
+  info.water_normal = m_scene.up();
+  info.water_offset = btScalar(-water.level);
+  info.water_density = btScalar(water.density);
+}
+
+void SceneWorld::addEffects(std::size_t index, wetcloth::WetCloth& wet) {
+  for (const EffectScene& effect : m_scene.cloths[index].effects) {
+    atPointer(m_scene, "/cloths/" + std::to_string(index) + "/effects/" + effect.key, [&] {
+      wetcloth::Effect& added = effect.addTo(wet, m_colliders);
+      if (auto* audit = dynamic_cast<wetcloth::CollisionAudit*>(&added)) m_audits.push_back(audit);
+      if (auto* dripping = dynamic_cast<wetcloth::Dripping*>(&added)) m_drops.follow(*dripping);
+    });
+  }
+}
+
+void SceneWorld::addCollider(const Collider& collider) {
+  const auto addStatic = [this](std::unique_ptr<btCollisionShape> shape, const btTransform& where) {
+    m_colliders.push_back(&m_world.addStatic(std::move(shape), where));
+  };
+  btTransform place = btTransform::getIdentity();
+  if (const auto* sphere = std::get_if<Sphere>(&collider)) {
+    place.setOrigin(sphere->centre);
+    addStatic(std::make_unique<btSphereShape>(btScalar(sphere->radius)), place);
+  } else if (const auto* box = std::get_if<Box>(&collider)) {
+    place.setOrigin(box->centre);
+    addStatic(std::make_unique<btBoxShape>(box->halfExtents), place);
+  } else {
+    const auto& plane = std::get<Plane>(collider);
+    const btScalar half = btScalar(planeHalfExtent);
+    place.setRotation(shortestArcQuat(btVector3(0, 1, 0), plane.normal));
+    place.setOrigin(plane.normal * (btScalar(plane.offset) - half));
+    addStatic(std::make_unique<btBoxShape>(btVector3(half, half, half)), place);
+  }
+}
+
+void SceneWorld::step(const BeforeSubstep& before) {
+  const btScalar dt = btScalar(m_scene.step / m_scene.substeps);
+  for (int i = 1; i <= m_scene.substeps; ++i) {
+    const double time = (m_steps * m_scene.substeps + i) * m_scene.step / m_scene.substeps;
+    for (Twist& twist : m_twists) twist.moveTo(time);
+    for (Motion& motion : m_motions) motion.moveTo(time);
+    if (before) before(dt);
+    m_world.substep(dt);
+  }
+  ++m_steps;
+  m_drops.forgetLanded(m_steps * m_scene.step);
+}
+
+void SceneWorld::setIterations(int iterations) {
+  m_world.world().getSolverInfo().m_numIterations = iterations;
+  for (btSoftBody* body : m_bodies) body->m_cfg.piterations = iterations;
+}
+
+void SceneWorld::continueFrom(const SceneWorld& other) {
+  m_steps = other.m_steps;
+  for (std::size_t i = 0; i < m_bodies.size(); ++i) {
+    for (int n = 0; n < m_bodies[i]->m_nodes.size(); ++n) {
+      btSoftBody::Node& node = m_bodies[i]->m_nodes[n];
+      const btSoftBody::Node& there = other.m_bodies[i]->m_nodes[n];
+      node.m_x = there.m_x;
+      node.m_q = there.m_q;
+      node.m_v = there.m_v;
+      node.m_vn = there.m_vn;
+      node.m_n = there.m_n;
+    }
+    m_bodies[i]->updateBounds();
+  }
+}
+
+void SceneWorld::save(std::ostream& stream) const { m_wetWorld->save(stream); }
+
+void SceneWorld::restore(std::istream& stream, int steps) {
+  m_wetWorld->restore(stream);
+  m_steps = steps;
+}
+
+void SceneWorld::finish() {
+  for (wetcloth::CollisionAudit* audit : m_audits) audit->look();
+}
+
+bool SceneWorld::isFinite() const {
+  for (const btSoftBody* body : m_bodies) {
+    for (int i = 0; i < body->m_nodes.size(); ++i) {
+      if (!runner::isFinite(body->m_nodes[i].m_x) || !runner::isFinite(body->m_nodes[i].m_v)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace runner

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "command/render/FallingDrops.h"
+#include "command/scene/BulletWorld.h"
+#include "command/scene/Motion.h"
+#include "command/scene/Scene.h"
+#include "command/scene/Twist.h"
+
+#include <functional>
+#include <iosfwd>
+#include <memory>
+#include <vector>
+
+namespace runner {
+
+/// A scene, ready to run.
+class SceneWorld {
+ public:
+  /// The same scene with the library, or in Bullet alone: what it is compared with.
+  enum class Kind { wet, plainBullet };
+
+  /// Throws InputError naming the file and the JSON pointer when the library refuses a cloth or an effect.
+  explicit SceneWorld(const Scene& scene, Kind kind = Kind::wet);
+
+  /// Called before each substep with its length [s]: to push nodes, for instance.
+  using BeforeSubstep = std::function<void(btScalar)>;
+
+  /// One step of the scene, all its substeps; the scene's number of them may change from one step to the next.
+  void step(const BeforeSubstep& before = {});
+  /// After the last step: collision audits look at its last substep.
+  void finish();
+
+  /// Of the position solver and the contacts' solver, from the next step on. @param iterations >= 1
+  void setIterations(int iterations);
+  /// Goes on from where another world of the same scene is: its time, places and velocities, not its water.
+  void continueFrom(const SceneWorld& other);
+
+  /// What the wet world is in now, to go on from it in another run of the same scene: not the drops that fall, which
+  /// are for pictures only. Throws wetcloth::StateError as wetcloth::WetClothWorld::save() and restore() do.
+  void save(std::ostream& stream) const;
+  void restore(std::istream& stream, int steps);
+
+  const Scene& scene() const { return m_scene; }
+  /// Simulated [s].
+  double time() const { return m_steps * m_scene.step; }
+  const std::vector<btSoftBody*>& bodies() const { return m_bodies; }
+  /// The wet cloths, in the order of the scene; none in plain Bullet.
+  const std::vector<wetcloth::WetCloth*>& cloths() const { return m_cloths; }
+  const FallingDrops& drops() const { return m_drops; }
+  const std::vector<wetcloth::CollisionAudit*>& audits() const { return m_audits; }
+  const Colliders& colliders() const { return m_colliders; }
+  /// Whether all positions and velocities are finite.
+  bool isFinite() const;
+
+ private:
+  void addCloth(const ClothScene& cloth);
+  void addEffects(std::size_t index, wetcloth::WetCloth& wet);
+  void addWater(const WaterScene& water);
+  void addCollider(const Collider& collider);
+
+  const Scene& m_scene;
+  BulletWorld m_world;
+  FallingDrops m_drops;                                 // before the effects that it follows
+  std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;  // after the world: it detaches before the world goes
+  std::vector<btSoftBody*> m_bodies;
+  std::vector<wetcloth::WetCloth*> m_cloths;
+  std::vector<wetcloth::CollisionAudit*> m_audits;
+  Colliders m_colliders;
+  std::vector<Twist> m_twists;
+  std::vector<Motion> m_motions;
+  int m_steps = 0;
+};
+
+}  // namespace runner

@@ -1,0 +1,37 @@
+#include "command/scene/Twist.h"
+
+#include <algorithm>
+
+namespace runner {
+namespace {
+
+using wetcloth::ClothPatch;
+using Edge = ClothPatch::Edge;
+
+bool isAlongU(Edge edge) { return edge == Edge::bottom || edge == Edge::top; }
+
+}  // namespace
+
+Twist::Twist(btSoftBody& body, const ClothPatch& patch, const TwistScene& scene) : m_body(body), m_scene(scene) {
+  const int columns = patch.columns;
+  const int count = isAlongU(scene.edge) ? columns : patch.rows;
+  for (int i = 0; i < count; ++i) {
+    m_nodes.push_back(scene.edge == Edge::bottom ? patch.node(i, 0)
+                      : scene.edge == Edge::top  ? patch.node(i, patch.rows - 1)
+                      : scene.edge == Edge::left ? patch.node(0, i)
+                                                 : patch.node(columns - 1, i));
+    m_starts.push_back(body.m_nodes[m_nodes.back()].m_x);
+  }
+  m_centre = (m_starts.front() + m_starts.back()) / 2;
+  m_axis = (isAlongU(scene.edge) ? patch.edgeV : patch.edgeU).normalized();
+}
+
+void Twist::moveTo(double time) {
+  const double turns = std::min(m_scene.turnsPerSecond * time, m_scene.turns);
+  const btQuaternion turn(m_axis, btScalar(SIMD_2_PI * turns));
+  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+    m_body.m_nodes[m_nodes[i]].m_x = m_centre + quatRotate(turn, m_starts[i] - m_centre);
+  }
+}
+
+}  // namespace runner

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "command/scene/Scene.h"
+
+#include <vector>
+
+namespace runner {
+
+/// Turns the nodes of a patch's edge about the line through the middles of that edge and the opposite one.
+class Twist {
+ public:
+  Twist(btSoftBody& body, const wetcloth::ClothPatch& patch, const TwistScene& scene);
+
+  /// Puts the nodes where they are at this time [s].
+  void moveTo(double time);
+
+ private:
+  btSoftBody& m_body;
+  TwistScene m_scene;
+  std::vector<int> m_nodes;
+  std::vector<btVector3> m_starts;
+  btVector3 m_centre;
+  btVector3 m_axis;
+};
+
+}  // namespace runner

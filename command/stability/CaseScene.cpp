@@ -1,0 +1,174 @@
+#include "command/stability/CaseScene.h"
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <BulletSoftBody/btDeformableBodySolver.h>
+#include <BulletSoftBody/btDeformableGravityForce.h>
+#include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
+#include <BulletSoftBody/btSoftMultiBodyDynamicsWorld.h>
+#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+namespace stability {
+namespace {
+
+runner::WorldKind kindOf(World world) {
+  if (world == World::softRigid) return runner::WorldKind::softRigid;
+  if (world == World::softMultiBody) return runner::WorldKind::softMultiBody;
+  return runner::WorldKind::deformable;
+}
+
+constexpr double kBendingShare = 0.01;  // of the stiffness of a link that bends
+constexpr double kFloorHalfExtent = 50;
+
+void makeHeavy(btSoftBody& body) {
+  const btScalar factor = btScalar(1 / (1 + wetcloth::Fabric::cotton().capacity));
+  for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_im *= factor;
+  body.updateLinkConstants();
+}
+
+}  // namespace
+
+CaseScene::CaseScene(World world, Way way, double dt, const btVector3& gravity)
+    : m_world(world), m_way(way), m_dt(dt), m_gravity(double(gravity.length())) {
+  runner::BulletWorld::Settings settings;
+  settings.kind = kindOf(world);
+  settings.gravity = gravity;
+  settings.implicit = world == World::deformableImplicit;
+  m_bullet = std::make_unique<runner::BulletWorld>(settings);
+  if (!isOurs()) return;
+  m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(bullet());
+  m_wetWorld->setLog({});
+}
+
+CaseScene::~CaseScene() {
+  m_wetWorld.reset();
+  for (const auto& body : m_rigidBodies) bullet().removeRigidBody(body.get());
+}
+
+btSoftBody& CaseScene::add(std::unique_ptr<btSoftBody> body, double stiffness) {
+  runner::DeformableSprings springs;
+  springs.stiffness = stiffness;
+  springs.bendingStiffness = kBendingShare * stiffness;
+  btSoftBody& added = m_bullet->add(std::move(body), isOurs() ? nullptr : &springs);
+  // Bullet's deformable world builds a tree of the faces for its collisions, and never returns from that where they are
+  // not all connected by edges.
+  added.m_cfg.collisions = 0;
+  m_cloths.push_back({&added, stiffness});
+  return added;
+}
+
+void CaseScene::collide(btSoftBody& body, bool withCloths) {
+  using Flags = btSoftBody::fCollision;
+  body.getCollisionShape()->setMargin(btScalar(0.02));
+  body.m_cfg.kDF = btScalar(0.5);
+  body.m_cfg.collisions = isDeformable(m_world) ? Flags::SDF_RD | Flags::SDF_RDN | (withCloths ? Flags::VF_DD : 0)
+                                                : Flags::SDF_RS | (withCloths ? Flags::VF_SS : 0);
+}
+
+CaseScene::Cloth& CaseScene::clothOf(const btSoftBody& body) {
+  for (Cloth& cloth : m_cloths) {
+    if (cloth.body == &body) return cloth;
+  }
+  throw std::logic_error("a body of another scene");
+}
+
+wetcloth::WetCloth* CaseScene::wet(btSoftBody& body, const wetcloth::Fabric& fabric) {
+  if (!isOurs()) return nullptr;
+  Cloth& cloth = clothOf(body);
+  cloth.wet = &m_wetWorld->add(body, fabric);
+  if (isDeformable(m_world)) {
+    wetcloth::HookeSprings::Parameters springs;
+    springs.stiffness = cloth.stiffness;
+    springs.bendingStiffness = kBendingShare * cloth.stiffness;
+    springs.iterations = springIterations;
+    cloth.wet->add<wetcloth::HookeSprings>(springs);
+  }
+  return cloth.wet;
+}
+
+btRigidBody& CaseScene::addRigid(std::unique_ptr<btCollisionShape> shape, double mass, const btVector3& position) {
+  btVector3 inertia(0, 0, 0);
+  if (mass > 0) shape->calculateLocalInertia(btScalar(mass), inertia);
+  btRigidBody::btRigidBodyConstructionInfo info(btScalar(mass), nullptr, shape.get(), inertia);
+  info.m_startWorldTransform.setIdentity();
+  info.m_startWorldTransform.setOrigin(position);
+  info.m_friction = 1;
+  auto body = std::make_unique<btRigidBody>(info);
+  if (mass == 0) body->setCollisionFlags(body->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+  body->setActivationState(DISABLE_DEACTIVATION);
+  bullet().addRigidBody(body.get());
+  m_shapes.push_back(std::move(shape));
+  m_rigidBodies.push_back(std::move(body));
+  return *m_rigidBodies.back();
+}
+
+btRigidBody& CaseScene::addFloor(double height) {
+  const btScalar half = btScalar(kFloorHalfExtent);
+  return addRigid(std::make_unique<btBoxShape>(btVector3(half, half, half)), 0,
+                  btVector3(0, btScalar(height) - half, 0));
+}
+
+// A body that the deformable world does not step must not be asked for its forces either.
+void CaseScene::takeOut(btSoftBody& body) {
+  body.forceActivationState(DISABLE_SIMULATION);
+  if (m_world == World::softRigid) static_cast<btSoftRigidDynamicsWorld&>(bullet()).removeSoftBody(&body);
+  if (m_world == World::softMultiBody) static_cast<btSoftMultiBodyDynamicsWorld&>(bullet()).removeSoftBody(&body);
+  if (isDeformable(m_world)) static_cast<btDeformableMultiBodyDynamicsWorld&>(bullet()).removeSoftBody(&body);
+  clothOf(body).isInWorld = false;
+}
+
+void CaseScene::putBack(btSoftBody& body) {
+  body.forceActivationState(DISABLE_DEACTIVATION);
+  if (m_world == World::softRigid) static_cast<btSoftRigidDynamicsWorld&>(bullet()).addSoftBody(&body);
+  if (m_world == World::softMultiBody) static_cast<btSoftMultiBodyDynamicsWorld&>(bullet()).addSoftBody(&body);
+  if (isDeformable(m_world)) static_cast<btDeformableMultiBodyDynamicsWorld&>(bullet()).addSoftBody(&body);
+  clothOf(body).isInWorld = true;
+}
+
+void CaseScene::setGravity(const btVector3& gravity) {
+  bullet().setGravity(gravity);
+  worldInfo().m_gravity = gravity;
+  if (!isDeformable(m_world)) return;
+  for (const Cloth& cloth : m_cloths) {
+    auto* solver = static_cast<btDeformableBodySolver*>(cloth.body->getSoftBodySolver());
+    if (solver == nullptr) continue;
+    const btAlignedObjectArray<btDeformableLagrangianForce*>& forces = *solver->getLagrangianForceArray();
+    for (int i = 0; i < forces.size(); ++i) {
+      if (forces[i]->getForceType() == BT_GRAVITY_FORCE) {
+        static_cast<btDeformableGravityForce*>(forces[i])->m_gravity = gravity;
+      }
+    }
+  }
+}
+
+void CaseScene::begin() {
+  for (Cloth& cloth : m_cloths) {
+    if (m_way == Way::plainBulletWet) makeHeavy(*cloth.body);
+    double sum = 0;
+    for (int k = 0; k < cloth.body->m_links.size(); ++k) {
+      cloth.restLengths.push_back(double(cloth.body->m_links[k].m_rl));
+      sum += cloth.restLengths.back();
+    }
+    cloth.meanRestLength = cloth.restLengths.empty() ? 0 : sum / static_cast<double>(cloth.restLengths.size());
+  }
+}
+
+void moveKinematic(btRigidBody& body, const btVector3& position, const btQuaternion& rotation, double dt) {
+  const btTransform from = body.getWorldTransform();
+  const btTransform to(rotation, position);
+  btVector3 linear;
+  btVector3 angular;
+  btTransformUtil::calculateVelocity(from, to, btScalar(dt), linear, angular);
+  body.setLinearVelocity(linear);
+  body.setAngularVelocity(angular);
+  body.setInterpolationLinearVelocity(linear);
+  body.setInterpolationAngularVelocity(angular);
+  body.setWorldTransform(to);
+  body.setInterpolationWorldTransform(to);
+}
+
+}  // namespace stability

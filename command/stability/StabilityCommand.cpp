@@ -1,0 +1,85 @@
+#include "command/stability/StabilityCommand.h"
+
+#include "command/stability/MarkedSection.h"
+#include "command/stability/StabilityReport.h"
+#include "command/stability/StabilityRun.h"
+#include "command/stability/StabilityTable.h"
+
+#include "command/cli/Errors.h"
+#include "command/cli/JsonOutput.h"
+#include "command/cli/Progress.h"
+#include "command/cli/Sibling.h"
+#include "command/scene/Scene.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+
+namespace stability {
+namespace {
+
+constexpr double smallestStep = 1e-4;
+constexpr double largestStep = 1;
+
+/// A number without anything before or behind it.
+std::optional<double> numberIn(const std::string& text) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  if (text.empty() || end != text.c_str() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::optional<double> stepIn(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const std::size_t slash = text.find('/');
+  std::optional<double> step = numberIn(text.substr(0, slash));
+  if (step && slash != std::string::npos) {
+    const std::optional<double> divisor = numberIn(text.substr(slash + 1));
+    step = divisor ? std::optional<double>(*step / *divisor) : std::nullopt;
+  }
+  if (step && *step >= smallestStep && *step <= largestStep) return step;
+  throw runner::InputError("wetcloth: --step = \"" + text + "\": must be in [0.0001, 1] s, as 0.01 or 1/100");
+}
+
+Selection selectionOf(const StabilityOptions& options) {
+  Selection selection;
+  selection.name = options.name;
+  selection.group = options.group;
+  if (!options.world.empty()) selection.world = runner::valueOf(stabilityWorlds(), options.world);
+  selection.step = stepIn(options.step);
+  selection.effort = options.isQuick ? Effort::quick : Effort::full;
+  return selection;
+}
+
+}  // namespace
+
+void tryHardCases(const StabilityOptions& options, char** arguments) {
+  const Selection selection = selectionOf(options);
+  const std::vector<Combination> combinations = combinationsOf(selection);
+  if (combinations.empty()) {
+    throw runner::InputError("wetcloth: no case is left by --case, --group, --world and --quick together");
+  }
+  if (!options.precision.empty()) {
+    runner::continueInPrecision(runner::valueOf(runner::precisionNames(), options.precision), "wetcloth: --precision",
+                                arguments);
+  }
+  runner::JsonOutput output(options.json);
+  std::optional<MarkedSection> section;
+  if (!options.markdown.empty()) {
+    section.emplace(options.markdown, "stability " + runner::nameOf(runner::ownPrecision));
+  }
+  std::vector<CaseResult> results;
+  {
+    runner::Progress progress("trying " + std::to_string(combinations.size()) + " hard cases");
+    results = runCombinations(combinations, selection.effort, [&](double done) { progress.update(done); });
+  }
+  const StabilityReport report(std::move(results));
+  output.write(report.json());
+  if (section) section->write(report.markdown());
+  if (!output.ownsStandardOutput()) std::fputs(report.text().c_str(), stdout);
+  if (report.count(CaseResult::Verdict::fails) > 0) {
+    throw runner::RunError("wetcloth: a bound does not hold, and plain Bullet holds it: " + report.failing());
+  }
+}
+
+}  // namespace stability

@@ -1,0 +1,129 @@
+#include "command/viewer/EffectSwitches.h"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+namespace viewer {
+namespace {
+
+using wetcloth::Effect;
+using wetcloth::Stage;
+using wetcloth::WetCloth;
+
+const runner::EffectScene* find(const runner::ClothScene& cloth, const std::string& key) {
+  for (const runner::EffectScene& effect : cloth.effects) {
+    if (effect.key == key) return &effect;
+  }
+  return nullptr;
+}
+
+bool isNamed(const runner::Scene& scene, const std::string& key) {
+  return std::any_of(scene.cloths.begin(), scene.cloths.end(),
+                     [&](const runner::ClothScene& cloth) { return cloth.hasEffect(key); });
+}
+
+Effect& add(WetCloth& cloth, std::unique_ptr<Effect> effect) { return cloth.add(std::move(effect)); }
+
+}  // namespace
+
+EffectSwitches::EffectSwitches(const runner::Scene& scene)
+    : m_isDeformable(scene.world == runner::WorldKind::deformable), m_commit(m_clock.addPart()) {
+  for (const OfferedEffect& offered : effectMenu(scene)) {
+    const bool named = isNamed(scene, offered.key);
+    if (!named && !offered.byDefault) continue;
+    m_switches.push_back({offered.key, named, named, false, ""});
+    Row row{m_clock.addPart(), {}, {}};
+    for (const runner::ClothScene& cloth : scene.cloths) {
+      const runner::EffectScene* own = find(cloth, offered.key);
+      row.perCloth.push_back(own != nullptr ? own->addTo : named ? runner::AddEffect() : offered.byDefault);
+    }
+    m_rows.push_back(std::move(row));
+  }
+}
+
+void EffectSwitches::equip(runner::Scene& scene) {
+  for (Row& row : m_rows) row.placed.clear();
+  for (Switch& each : m_switches) each.waitsForReset = false;
+  for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) {
+    std::vector<runner::EffectScene>& effects = scene.cloths[cloth].effects;
+    effects = {beginning(Stage::sources), commitEnd()};
+    for (std::size_t i = 0; i < m_rows.size(); ++i) {
+      if (m_switches[i].isOn && m_rows[i].perCloth[cloth]) effects.push_back(effectScene(i, cloth));
+    }
+  }
+}
+
+void EffectSwitches::restore() {
+  for (Switch& each : m_switches) each.isOn = each.isInScene;
+}
+
+runner::EffectScene EffectSwitches::effectScene(std::size_t index, std::size_t cloth) {
+  return {m_switches[index].key, [this, index, cloth](WetCloth& wet, const runner::Colliders& colliders) -> Effect& {
+            return place(index, cloth, wet, colliders);
+          }};
+}
+
+runner::EffectScene EffectSwitches::beginning(Stage stage) {
+  return {"", [this, stage](WetCloth& cloth, const runner::Colliders&) -> Effect& {
+            return add(cloth, m_clock.beginning(stage));
+          }};
+}
+
+/// The first of the stage after it.
+runner::EffectScene EffectSwitches::commitEnd() {
+  return {"", [this](WetCloth& cloth, const runner::Colliders&) -> Effect& {
+            return add(cloth, m_clock.endOf(m_commit, Stage::forces));
+          }};
+}
+
+Effect& EffectSwitches::place(std::size_t index, std::size_t clothIndex, WetCloth& cloth,
+                              const runner::Colliders& colliders) {
+  Row& row = m_rows[index];
+  const auto& addTo = row.perCloth[clothIndex];
+  Effect* effect = &addTo(cloth, colliders);
+  // Bullet's collision detection lies between the stages before and `contact`, so effects there need a beginning; only
+  // an effect that was added tells its stage.
+  if (effect->stage() == Stage::contact) {
+    cloth.remove(*effect);
+    row.placed.push_back({&cloth, &add(cloth, m_clock.beginning(Stage::contact))});
+    effect = &addTo(cloth, colliders);
+  }
+  row.placed.push_back({&cloth, effect});
+  row.placed.push_back({&cloth, &add(cloth, m_clock.endOf(row.part, effect->stage()))});
+  return *effect;
+}
+
+void EffectSwitches::removeFrom(WetCloth& cloth, Row& row) {
+  for (const Placed& placed : row.placed) {
+    if (placed.cloth == &cloth) cloth.remove(*placed.effect);
+  }
+  row.placed.erase(std::remove_if(row.placed.begin(), row.placed.end(),
+                                  [&](const Placed& placed) { return placed.cloth == &cloth; }),
+                   row.placed.end());
+}
+
+void EffectSwitches::turn(std::size_t index, bool on, runner::SceneWorld& world) {
+  Switch& turned = m_switches.at(index);
+  turned.refusal.clear();
+  if (turned.isOn == on) return;
+  turned.isOn = on;
+  // Bullet's own springs are made with the deformable world, where the scene has no others.
+  if (m_isDeformable && turned.key == "hooke_springs") {
+    turned.waitsForReset = !turned.waitsForReset;
+    return;
+  }
+  try {
+    for (std::size_t i = 0; i < world.cloths().size(); ++i) {
+      if (!on) removeFrom(*world.cloths()[i], m_rows[index]);
+      if (on && m_rows[index].perCloth[i]) place(index, i, *world.cloths()[i], world.colliders());
+    }
+  } catch (const std::invalid_argument& refused) {
+    turned.isOn = false;
+    turned.refusal = refused.what();
+    for (WetCloth* cloth : world.cloths()) removeFrom(*cloth, m_rows[index]);
+  }
+}
+
+}  // namespace viewer

@@ -1,0 +1,91 @@
+#include "command/viewer/ViewCommand.h"
+
+#include "command/viewer/LiveScene.h"
+#include "command/viewer/Player.h"
+
+#include "command/cli/Errors.h"
+#include "command/cli/JsonOutput.h"
+#include "command/cli/StagedOutput.h"
+#include "command/run/StateHash.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace viewer {
+namespace {
+
+constexpr int smallest = 320;
+constexpr int largest = 8192;
+
+std::pair<int, int> sizeOf(const std::string& text) {
+  int width = 0;
+  int height = 0;
+  char end = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < smallest || height < smallest ||
+      width > largest || height > largest) {
+    throw runner::InputError("wetcloth: --size = \"" + runner::onOneLine(text) +
+                             "\": must be WIDTHxHEIGHT in pixels, " + "each from " + std::to_string(smallest) + " to " +
+                             std::to_string(largest));
+  }
+  return {width, height};
+}
+
+/// Made before the window opens, so that a slip in the name is told at once; null: no picture is wanted.
+std::unique_ptr<runner::StagedOutput> pictureOf(const ViewOptions& options) {
+  const std::string& file = options.screenshot;
+  if (file.empty()) return nullptr;
+  const std::string option = "wetcloth: --screenshot = \"" + runner::onOneLine(file) + "\"";
+  if (file.size() < 5 || file.substr(file.size() - 4) != ".png") {
+    throw runner::InputError(option + ": must be a file that ends in .png");
+  }
+  return std::make_unique<runner::StagedOutput>(option, file, runner::StagedOutput::Kind::file);
+}
+
+PlayerOptions playerOptionsOf(const ViewOptions& options) {
+  if (options.frames && (*options.frames < 1 || *options.frames > 1000000)) {
+    throw runner::InputError("wetcloth: --frames = " + std::to_string(*options.frames) + ": must be 1 to 1000000");
+  }
+  const auto [width, height] = sizeOf(options.size);
+  return {width, height, options.frames, ""};
+}
+
+nlohmann::ordered_json jsonOf(const LiveScene& live, const PlayerReport& report) {
+  nlohmann::ordered_json json;
+  json["scene"] = live.scene().name;
+  json["precision"] = runner::nameOf(runner::ownPrecision);
+  json["time_s"] = live.time();
+  json["steps"] = live.steps();
+  json["frames"] = report.frames;
+  json["frames_per_second"] = report.framesPerSecond;
+  json["paused"] = live.isPaused();
+  json["slow_motion"] = report.slowMotion;
+  json["compare"] = live.isCompared();
+  json["colouring"] = report.colouring;
+  json["drags"] = report.drags;
+  for (const auto& effect : live.effects().list()) {
+    if (effect.isOn) json["effects"].push_back(effect.key);
+  }
+  json["water_held_kg"] = live.waterHeld();
+  json["state_hash"] = runner::stateHash(live.world());
+  return json;
+}
+
+}  // namespace
+
+void viewScene(const ViewOptions& options, char** arguments) {
+  PlayerOptions playerOptions = playerOptionsOf(options);
+  LiveScene live(runner::readScene(options, arguments));
+  const auto picture = pictureOf(options);
+  requirePlayer();
+  runner::JsonOutput output(options.json);
+  live.setPaused(options.paused);
+  live.setCompared(options.compare);
+  if (picture) playerOptions.lastPicture = picture->path();
+  const PlayerReport report = play(live, playerOptions);
+  if (picture) picture->commit();
+  output.write(jsonOf(live, report));
+}
+
+}  // namespace viewer

@@ -1,9 +1,0 @@
-#include "Font.h"
-
-#include "Embedded.h"
-
-namespace pictures {
-
-std::string_view fontFile() { return embedded::DejaVuSansSubset_ttf; }
-
-}  // namespace pictures

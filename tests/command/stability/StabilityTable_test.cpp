@@ -1,0 +1,238 @@
+// The table of `wetcloth stability`: every case in every world at one step, and what the obvious ways come to. The
+// other steps are the command's business.
+
+#include "command/stability/StabilityTable.h"
+#include "command/stability/CaseRun.h"
+#include "command/stability/CaseScene.h"
+#include "command/stability/SceneMeter.h"
+#include "command/stability/StabilityRun.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace wetcloth_test {
+namespace {
+
+constexpr double kStabilityStep = 1. / 60;
+
+const stability::HardCase& hardCaseNamed(const std::string& name) {
+  for (const stability::HardCase& hardCase : stability::stabilityTable()) {
+    if (hardCase.name == name) return hardCase;
+  }
+  throw std::logic_error("no case " + name);
+}
+
+class StabilityTable : public testing::TestWithParam<std::string> {};
+
+// Where a bound does not hold, Bullet alone must fail it, too.
+TEST_P(StabilityTable, NoBoundFailsThatPlainBulletHolds) {
+  const stability::HardCase& hardCase = hardCaseNamed(GetParam());
+  for (const stability::World world : hardCase.worlds) {
+    // Other than the deformable ones, the two differ in their solver of rigid bodies alone.
+    if (world == stability::World::softMultiBody && hardCase.group != "contacts") continue;
+    const stability::CaseResult result = stability::tryCase(hardCase, world, kStabilityStep, stability::Effort::quick,
+                                                            stability::Comparisons::whereNeeded);
+    EXPECT_NE(result.verdict(), stability::CaseResult::Verdict::fails)
+        << nameOf(world) << ": " << result.ours.nearest().bound << " " << result.ours.nearest().ratio;
+  }
+}
+
+std::vector<std::string> casesOfTheTest() {
+  std::vector<std::string> names = stability::caseNames();
+  // Its time scales and steps are those of the hour, which has a test of its own.
+  names.erase(std::remove(names.begin(), names.end(), "laundry_2_minutes"), names.end());
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(, StabilityTable, testing::ValuesIn(casesOfTheTest()), [](const auto& test) {
+  std::string name = test.param;
+  for (char& character : name) {
+    if (std::isalnum(static_cast<unsigned char>(character)) == 0) character = '_';
+  }
+  return name;
+});
+
+TEST(StabilityCases, AllThatWasAskedForIsThere) {
+  const std::vector<std::string> names = stability::caseNames();
+  const std::set<std::string> present(names.begin(), names.end());
+  EXPECT_EQ(present.size(), names.size()) << "names are unique";
+  for (const char* const name : {"mass_1e-6_kg",
+                                 "mass_10_kg",
+                                 "neighbours_1e4",
+                                 "one_wet_node",
+                                 "wet_in_one_step",
+                                 "dry_in_one_step",
+                                 "dries_to_its_dry_mass",
+                                 "cycles_1e4",
+                                 "wind_0",
+                                 "wind_200",
+                                 "wind_reversing",
+                                 "wind_along_the_plane",
+                                 "wind_edge_on",
+                                 "wind_on_crumpled_cloth",
+                                 "zero_area_and_needles",
+                                 "duplicate_nodes",
+                                 "lone_triangle",
+                                 "strip_one_cell_wide",
+                                 "non_manifold_edges",
+                                 "obtuse_mesh",
+                                 "flipped_faces",
+                                 "cloth_1_mm",
+                                 "cloth_100_m",
+                                 "pinned_everywhere",
+                                 "pinned_nowhere",
+                                 "pinned_at_one_node",
+                                 "moving_pins",
+                                 "spinning_sphere",
+                                 "through_a_gap",
+                                 "pinched",
+                                 "under_50_times_its_weight",
+                                 "cloth_on_cloth",
+                                 "steps_that_vary",
+                                 "pauses",
+                                 "hitches_of_10_s",
+                                 "time_scale_changes",
+                                 "time_scale_0",
+                                 "gravity_off_and_reversed",
+                                 "effects_added_and_removed",
+                                 "body_removed_and_put_back",
+                                 "worlds_in_any_order",
+                                 "cubic_coplanar",
+                                 "cubic_double_roots",
+                                 "cubic_roots_at_0_and_1",
+                                 "cubic_tiny_coordinates",
+                                 "cubic_huge_coordinates",
+                                 "laundry_1_hour"}) {
+    EXPECT_EQ(present.count(name), 1U) << name;
+  }
+  EXPECT_EQ(stability::combinationsOf({"wind_50", "", {}, {}, stability::Effort::full}).size(), 4U * 5U)
+      << "every world, every step";
+}
+
+// An hour of it at 1/60 s in one world; the command runs all of them.
+TEST(StabilityCases, AnHourOfLaundry) {
+  const stability::CaseMeter meter = stability::runCase(hardCaseNamed("laundry_1_hour"), stability::World::softRigid,
+                                                        stability::Way::ours, kStabilityStep);
+  EXPECT_TRUE(meter.holds()) << meter.nearest().bound << " " << meter.nearest().ratio;
+  EXPECT_GT(meter.marginOf("speed"), 0.01) << "it did move";
+  EXPECT_GT(meter.marginOf("ledger"), 0) << "and got wet";
+}
+
+// --- the obvious ways -----------------------------------------------------------------------------------------
+
+struct ObviousWay {
+  const char* hardCase;
+  const char* name;
+  const char* bound;  ///< that it fails; empty: any
+};
+
+class StabilityOfObviousWays : public testing::TestWithParam<ObviousWay> {};
+
+TEST_P(StabilityOfObviousWays, FailsWhereOursHolds) {
+  const stability::HardCase& hardCase = hardCaseNamed(GetParam().hardCase);
+  const auto world = stability::World::softRigid;
+  EXPECT_EQ(hardCase.obviousWay, GetParam().name);
+  EXPECT_TRUE(stability::runCase(hardCase, world, stability::Way::ours, kStabilityStep).holds());
+  const stability::CaseMeter obvious = stability::runCase(hardCase, world, stability::Way::obvious, kStabilityStep);
+  EXPECT_FALSE(obvious.holds());
+  if (GetParam().bound[0] != '\0') {
+    EXPECT_GT(obvious.marginOf(GetParam().bound), 1);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, StabilityOfObviousWays,
+                         testing::Values(ObviousWay{"wet_in_one_step", "setMass in each step", "final stretch"},
+                                         // No number in float32, too much energy in float64.
+                                         ObviousWay{"dry_in_one_step", "stale link constants", ""},
+                                         ObviousWay{"soaks_in_flight", "mass without momentum", "momentum"},
+                                         ObviousWay{"wind_50", "explicit wind", "speed"}),
+                         [](const auto& test) { return std::string(test.param.hardCase); });
+
+TEST(StabilityCases, TheTextbooksCubicMissesContacts) {
+  const stability::HardCase& hardCase = hardCaseNamed("cubic_coplanar");
+  const stability::CaseMeter textbook =
+      stability::runCase(hardCase, stability::World::none, stability::Way::obvious, 0);
+  EXPECT_EQ(textbook.marginOf("missed contacts"), HUGE_VAL);
+}
+
+// --- the table's own measure ------------------------------------------------------------------------------------
+
+/// A free sheet, weightless, whose first node gets a velocity [m/s]; ours and plain Bullet's may differ.
+stability::HardCase kicked(double ours, double plain) {
+  stability::HardCase hardCase;
+  hardCase.worlds = {stability::World::softRigid};
+  hardCase.isWeightless = true;
+  hardCase.build = [=](stability::CaseScene& scene) {
+    wetcloth::ClothPatch patch;
+    patch.columns = patch.rows = 4;
+    btSoftBody& body = scene.add(patch, 1000);
+    scene.wet(body);
+    scene.limits.source = 1;
+    body.m_nodes[0].m_v.setX(btScalar(scene.isOurs() ? ours : plain));
+    return stability::Script{};
+  };
+  return hardCase;
+}
+
+stability::CaseResult::Verdict verdictOf(double ours, double plain) {
+  return stability::tryCase(kicked(ours, plain), stability::World::softRigid, kStabilityStep).verdict();
+}
+
+TEST(StabilityMeasure, TellsWhoseFaultItIs) {
+  using Verdict = stability::CaseResult::Verdict;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(verdictOf(1, 1), Verdict::holds);
+  EXPECT_EQ(verdictOf(1, 1000), Verdict::holds);
+  EXPECT_EQ(verdictOf(1000, 1), Verdict::fails);
+  EXPECT_EQ(verdictOf(1000, 1000), Verdict::bulletFails);
+  EXPECT_EQ(verdictOf(nan, 1), Verdict::fails);
+  EXPECT_EQ(verdictOf(nan, 1000), Verdict::fails) << "fast is not the same as not a number";
+  EXPECT_EQ(verdictOf(nan, nan), Verdict::bulletFails);
+}
+
+TEST(StabilityMeasure, KeepsTheWorstOfEachBound) {
+  stability::CaseMeter meter;
+  EXPECT_TRUE(meter.holds());
+  meter.compare("speed", 1, 4);
+  meter.compare("speed", 3, 4);
+  meter.compare("energy", 1, 2);
+  EXPECT_DOUBLE_EQ(meter.marginOf("speed"), 0.75);
+  EXPECT_EQ(meter.nearest().bound, "speed");
+  meter.compare("drift", 0, 0);
+  EXPECT_TRUE(meter.holds()) << "nothing is allowed, and there is nothing";
+  meter.compare("drift", 1e-300, 0);
+  EXPECT_EQ(meter.marginOf("drift"), HUGE_VAL);
+  meter.compare("energy", std::numeric_limits<double>::quiet_NaN(), 1);
+  EXPECT_EQ(meter.marginOf("energy"), HUGE_VAL) << "what is not a number holds no bound";
+}
+
+TEST(StabilityMeasure, SeesStretch) {
+  stability::HardCase hardCase = kicked(0, 0);
+  hardCase.build = [](stability::CaseScene& scene) {
+    wetcloth::ClothPatch patch;
+    patch.columns = patch.rows = 3;
+    patch.pinnedEdges = {wetcloth::ClothPatch::Edge::left, wetcloth::ClothPatch::Edge::right};
+    btSoftBody& body = scene.add(patch, 1000);
+    scene.limits.source = 3;
+    stability::Script script;
+    script.before = [&scene, &body] {
+      // Apart by 3 m in each second; the limits know of the speed alone.
+      for (int i = 0; i < body.m_nodes.size(); ++i) {
+        if (body.m_nodes[i].m_im == 0 && body.m_nodes[i].m_x.x() > 0.5)
+          body.m_nodes[i].m_x.setX(1 + 3 * btScalar(scene.time()));
+      }
+    };
+    return script;
+  };
+  const stability::CaseMeter meter =
+      stability::runCase(hardCase, stability::World::softRigid, stability::Way::ours, kStabilityStep);
+  EXPECT_GT(meter.marginOf("stretch"), 5) << "4.5 m for links of half a metre, of which half is allowed";
+}
+
+}  // namespace
+}  // namespace wetcloth_test

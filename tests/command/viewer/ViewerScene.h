@@ -1,0 +1,76 @@
+#pragma once
+
+#include "command/scene/ReadParameters.h"
+#include "command/viewer/LiveScene.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace viewer_test {
+
+/// A square towel that hangs by its upper edge, one metre wide, in the plane z = 0; dry, with no effect.
+inline runner::Scene hangingTowel(runner::WorldKind world = runner::WorldKind::softRigid) {
+  runner::Scene scene;
+  scene.file = "towel.json";
+  scene.name = "towel";
+  scene.world = world;
+  runner::ClothScene cloth;
+  wetcloth::ClothPatch patch;
+  patch.columns = patch.rows = 9;
+  patch.origin = btVector3(0, 2, 0);
+  patch.edgeU = btVector3(1, 0, 0);
+  patch.edgeV = btVector3(0, -1, 0);
+  patch.pinnedEdges = {wetcloth::ClothPatch::Edge::bottom};
+  patch.arealDensity = cloth.fabric.arealDensity;
+  cloth.shape = patch;
+  cloth.springs.stiffness = 20;  // Bullet's explicit springs want no more at this mass and step
+  scene.cloths = {cloth};
+  return scene;
+}
+
+template <class E>
+void give(runner::Scene& scene, const std::string& key, typename E::Parameters parameters = {}) {
+  scene.cloths[0].effects.push_back({key, runner::addEffect<E>(parameters)});
+}
+
+inline runner::Scene soakingTowel(runner::WorldKind world = runner::WorldKind::softRigid) {
+  runner::Scene scene = hangingTowel(world);
+  give<wetcloth::Absorption>(scene, "absorption");
+  wetcloth::Wind::Parameters wind;
+  wind.velocity = btVector3(1, 0, 3);
+  give<wetcloth::Wind>(scene, "wind", wind);
+  return scene;
+}
+
+inline void run(viewer::LiveScene& live, int steps) {
+  for (int i = 0; i < steps; ++i) live.step();
+}
+
+inline std::size_t indexOf(const viewer::LiveScene& live, const std::string& key) {
+  const auto& list = live.effects().list();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].key == key) return i;
+  }
+  ADD_FAILURE() << "no switch for " << key;
+  return 0;
+}
+
+inline const viewer::EffectSwitches::Switch& switchOf(const viewer::LiveScene& live, const std::string& key) {
+  return live.effects().list()[indexOf(live, key)];
+}
+
+/// From the front, at a place of the towel's plane.
+inline viewer::Ray rayAt(double x, double y) { return {btVector3(btScalar(x), btScalar(y), 5), btVector3(0, 0, -1)}; }
+
+/// Each of Bullet's three worlds.
+class InEachWorld : public testing::TestWithParam<runner::WorldKind> {};
+
+inline const auto allWorlds =
+    testing::Values(runner::WorldKind::softRigid, runner::WorldKind::softMultiBody, runner::WorldKind::deformable);
+
+inline std::string worldName(const testing::TestParamInfo<runner::WorldKind>& info) {
+  return runner::nameOf(info.param);
+}
+
+}  // namespace viewer_test
