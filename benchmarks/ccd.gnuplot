@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # Errors against time of the collision checks: gnuplot -e "data='ccd.csv'; picture='ccd.svg'" ccd.gnuplot
 set datafile separator ';'
 set terminal svg size 1000,640 font 'sans,13' background '#ffffff'

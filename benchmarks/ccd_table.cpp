@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The continuous collision checks on tests/data/ccd, side by side: contacts missed, false alarms, time per query.
 // Prints a table in Markdown, and the same as CSV into the file that is named.
 
@@ -44,7 +45,7 @@ struct Collection {
   Pair pair;
   std::vector<Query<double>> queries;
   std::vector<Query<float>> rounded;
-  std::vector<runner::BulletQuery> bullet;
+  std::vector<command::BulletQuery> bullet;
   std::vector<char> meets;
 };
 

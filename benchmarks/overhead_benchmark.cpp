@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // What our effects add to Bullet's own step. `added_percent` is our part of the step over Bullet's part of the same
 // step. `ratio` is the whole step over that of a plain cloth, the two taking turns so that a machine whose speed
 // drifts slows both; cloths that move differently also cost Bullet differently, so it can lie on either side of it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The parts of a step one by one, with warm caches, beside what Bullet takes for the same.
 
 #include "benchmarks/BenchCloth.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // How far a hanging strip stretches: Bullet's links by how far its solver has converged, HookeSprings by the load.
 // Arguments: position iterations, substeps of 1/60 s, percent of saturation. Counter: the tip's extension in mm.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Filling a vertex buffer: ours with positions, normals, colour and roughness, and the same two that Bullet's own copy
 // has, against that copy, in turns.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Our wind per triangle against Bullet's own addAeroForceToFace on the same cloth, in turns.
 
 #include "benchmarks/BenchCloth.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 // Everything that an application needs to make its Bullet cloth wet.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # wetcloth_compile_options(<target>): what every target of this tree is compiled with, and none of its users.
 #
 # -Wconversion is left out on purpose: water is double and btScalar is float or double, so code for both

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # A parent build, the command line and the environment choose their own launcher: ours is only a default.
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(WETCLOTH_CCACHE ccache)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # wetcloth_discover_test_suites(<target> PREFIX <prefix> [WORKING_DIRECTORY <directory>]): a CTest test for each test suite
 # of a GoogleTest program. GoogleTest's own gtest_discover_tests() makes one of each test case, and thousands of starts of
 # a large program take longer than the tests themselves. Suites are listed when CTest runs.

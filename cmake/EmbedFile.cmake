@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # wetcloth_embed_files(<target> <unit> <file>...)
 #
 # Compiles files into the target: each is a std::string_view in namespace `embedded`, named as the file with _ for

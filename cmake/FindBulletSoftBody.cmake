@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 #[==[
 FindBulletSoftBody: Bullet with soft bodies, in each precision that is there.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # wetcloth_join_test_sources(<result> <directory> <per_file> <source>...)
 #
 # Sources in <directory> that include up to <per_file> of the given test files each, in their order and of one folder,

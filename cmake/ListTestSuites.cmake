@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # Run by CTest, with `program`, `prefix` and `directory` set: see DiscoverTestSuites.cmake.
 if(NOT EXISTS "${program}")
   add_test("${prefix}NOT_BUILT" "${program}")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # Everything here is built once per precision of btScalar that Bullet was found in. WETCLOTH_PRECISIONS lists
 # them; target names carry a suffix for all but float32, as Debian names Bullet's libraries.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # wetcloth_require(<package> FOR <part> OPTION <option> DEBIAN <n> HOMEBREW <n> VCPKG <n> CONAN <n>)
 #
 # find_package(<package>) whose error says what to install, or which option does without.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/cli/CommandLine.h"
 #include "command/cli/Errors.h"
 
@@ -6,12 +7,12 @@
 
 int main(int count, char** arguments) {
   try {
-    return runner::runCommandLine(count, arguments);
-  } catch (const runner::InputError& error) {
+    return command::runCommandLine(count, arguments);
+  } catch (const command::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", runner::onOneLine(error.what()).c_str());
+    std::fprintf(stderr, "%s\n", command::onOneLine(error.what()).c_str());
     return 1;
   }
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A cotton towel hangs by two corners in a light wind and soaks for ten seconds.
 //
 // The first half of main() is Bullet as you know it; the lines that name wetcloth are all that is new.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // An application that already uses Bullet's pre-tick callback (to drag a node, as Bullet's own SoftDemo does), its
 // tick callback, and the world's user info. All three keep working when its cloth becomes wet. It may also keep the
 // pre-tick callback to itself and call the WetClothWorld from there: Hook::manual.

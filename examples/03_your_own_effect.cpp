@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // An effect of your own: a hair dryer that takes water out of the cloth where a function says.
 
 #include <bullet_wetcloth/DryMass.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The paper's three winds, 0.5, 1.0 and 1.5, on its saturated flag; and a gust, which is a function of position and
 // time, on a flag of real cotton, wet and dry. Five cloths in one world.
 

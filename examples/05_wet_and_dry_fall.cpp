@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The same sheet falls 19.62 m: as plain Bullet has it (in a vacuum), dry, and wet, each beside its closed form.
 // Only the air can tell wet from dry, and it takes much water to show: saturated cotton, 1.84 times as heavy, does
 // not halve the time; the 84-fold mass of the paper's Table II does.

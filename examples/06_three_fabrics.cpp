@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The three fabrics of the paper's Table I soak, each beside its closed form Q(t) / capacity = 1 - exp(-t / theta).
 // The update is exact for any step, so large steps cost no accuracy.
 

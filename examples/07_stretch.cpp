@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Wet weight stretches a cloth line only if its links are springs. Bullet's position-based links do not see a uniform
 // change of mass; HookeSprings takes their place, and the extension follows m g / k.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A small cloth falls flat onto a large one that Bullet is told to collide it with. The audit counts what goes through,
 // and a check of one's own finds what Bullet's does not.
 

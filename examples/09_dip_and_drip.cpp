@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A towel is let down into water and lifted out again. The water is the surface that Bullet knows already
 // (btSoftBodyWorldInfo); each drop that falls from the towel is an event, here a particle that falls back.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A dry towel falls on a wet floor. Where it touches it takes the water up, and the wetter it is the more the floor
 // holds it back: ContactWetting, WetFriction and Cling work on the contacts that Bullet has found.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A towel from the bucket hangs on the line: the water sinks, drips, first fast and then slowly, and what stays dries.
 // Nothing but the effects that are named here is computed.
 

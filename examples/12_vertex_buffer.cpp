@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // What your renderer draws: a vertex buffer of your own, filled with positions, normals, colour and roughness in one
 // pass; and what your debug drawer draws: the cloth by its saturation, and the wind on it.
 

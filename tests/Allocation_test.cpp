@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The step allocates nothing after its first turns. C++ allocations are counted by replacing operator new for the whole
 // test program; Bullet's own go through btAlignedAlloc and are not counted. Sanitizers bring an operator new of their
 // own, so there the count is left out.

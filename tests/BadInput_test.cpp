@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Bad input is refused where it is given, with the field's name and the value, and leaves everything as it was.
 
 #include "tests/support/CoreScene.h"

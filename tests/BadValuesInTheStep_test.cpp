@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // What goes wrong inside a step cannot be refused: an application's function returns NaN, a triangle has no area, a
 // step has no length. Nothing that is not finite may reach Bullet.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Anchors and tetrahedra: a body that got wet runs like one that was built with the wet masses.
 // (Clusters, poses and the deformable world's anchors are among the traps.)
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Bodies leave a world, are deleted, and come back, whether or not the application told us.
 
 #include "tests/support/CoreScene.h"

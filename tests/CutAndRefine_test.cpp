@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A body may be cut or refined while it is wet: no water is lost, one message says so, and the world goes on.
 
 #include "tests/support/CoreScene.h"

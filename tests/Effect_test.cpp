@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The order of a step, effects of the application's own, and what happens to one that fails.
 
 #include "tests/support/CoreScene.h"

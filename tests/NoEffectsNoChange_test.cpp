@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A cloth that asks for nothing costs nothing and changes nothing: with no effects, the step's result is Bullet's own,
 // bit for bit.
 

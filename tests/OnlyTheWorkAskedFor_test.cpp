@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A cloth where no water moves does not touch masses, and a settled effect idles until its input changes.
 
 #include "tests/support/CoreScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Bodies that are no cloth: a rope has links and no faces, a cloud of points has neither. Effects that need faces or
 // links say so; the others work.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Several cloths in a world, several worlds in a process, several threads: nobody notices the others.
 
 #include "tests/support/CoreScene.h"

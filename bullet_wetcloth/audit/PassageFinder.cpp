@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/audit/PassageFinder.h"
 
 #include "bullet_wetcloth/state/StateArchive.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/audit/SweptFaces.h"
 
 #include "bullet_wetcloth/bullet/NodeIndex.h"

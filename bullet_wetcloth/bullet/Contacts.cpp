@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/bullet/Contacts.h"
 
 #include "bullet_wetcloth/WetCloth.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/collision/AxisCull.h"
 
 #include <Eigen/Core>

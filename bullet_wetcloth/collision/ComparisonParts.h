@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 // What the methods for comparison share: plain floating point without error bounds. Nothing here is fit for a check

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/collision/ContinuousCheck.h"
 
 #include "bullet_wetcloth/collision/AxisCull.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/collision/CoplanarityCubic.h"
 
 #include "bullet_wetcloth/collision/Relative.h"

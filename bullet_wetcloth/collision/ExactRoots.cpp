@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/collision/ExactRoots.h"
 
 #include <algorithm>

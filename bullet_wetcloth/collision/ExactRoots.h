@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 // The roots of small integer polynomials in [0, 1] and the signs of other polynomials there, without any rounding.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/collision/TextbookCheck.h"
 
 #include "bullet_wetcloth/collision/ComparisonParts.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/effects/ContactWetting.h"
 
 #include "bullet_wetcloth/Require.h"

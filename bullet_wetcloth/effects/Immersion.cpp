@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/effects/Immersion.h"
 
 #include "bullet_wetcloth/WetCloth.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/mesh/RestMesh.h"
 
 #include "bullet_wetcloth/bullet/NodeIndex.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/numerics/DiffusionSolver.h"
 
 #include "bullet_wetcloth/bullet/Index.h"

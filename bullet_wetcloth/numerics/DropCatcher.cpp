@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/numerics/DropCatcher.h"
 
 #include "bullet_wetcloth/Require.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/numerics/FluxLimiter.h"
 
 #include "bullet_wetcloth/bullet/Index.h"

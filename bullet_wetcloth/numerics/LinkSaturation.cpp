@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/numerics/LinkSaturation.h"
 
 #include "bullet_wetcloth/WetCloth.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/numerics/SparseFactor.h"
 
 #include <Eigen/SparseCholesky>

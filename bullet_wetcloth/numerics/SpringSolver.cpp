@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/numerics/SpringSolver.h"
 
 #include "bullet_wetcloth/state/StateArchive.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/shading/DebugDraw.h"
 
 #include "bullet_wetcloth/WetCloth.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/shading/VertexBuffer.h"
 
 #include "bullet_wetcloth/Require.h"

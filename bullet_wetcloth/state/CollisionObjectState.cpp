@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/state/CollisionObjectState.h"
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>

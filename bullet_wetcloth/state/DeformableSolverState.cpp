@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/state/DeformableSolverState.h"
 
 #include <BulletSoftBody/btDeformableBackwardEulerObjective.h>

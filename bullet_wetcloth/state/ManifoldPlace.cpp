@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/state/ManifoldPlace.h"
 
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/state/RigidContactState.h"
 
 #include "bullet_wetcloth/state/ManifoldPlace.h"

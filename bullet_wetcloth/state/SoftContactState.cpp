@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/bullet/IndexIn.h"
 #include "bullet_wetcloth/state/SoftBodyState.h"
 

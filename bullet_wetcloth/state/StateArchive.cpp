@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>

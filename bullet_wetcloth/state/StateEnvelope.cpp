@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/state/StateEnvelope.h"
 
 #include "bullet_wetcloth/state/StateError.h"

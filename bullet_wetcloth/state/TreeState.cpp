@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/state/TreeState.h"
 
 #include <LinearMath/btAlignedAllocator.h>

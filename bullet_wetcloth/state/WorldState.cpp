@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/state/WorldState.h"
 
 #include "bullet_wetcloth/state/BroadphaseState.h"

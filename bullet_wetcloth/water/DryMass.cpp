@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/water/DryMass.h"
 
 #include "bullet_wetcloth/Require.h"

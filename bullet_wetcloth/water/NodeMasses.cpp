@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/water/NodeMasses.h"
 
 #include "bullet_wetcloth/bullet/ImpulseMatrix.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/Specimen.h"
 #include "command/accuracy/Studies.h"
 
@@ -69,10 +70,10 @@ Outcome soak(Specimen& specimen, double dt, Before before) {
   const int steps = static_cast<int>(std::lround(cycleDuration / dt));
   Outcome outcome{{0}, 0};
   for (int i = 0; i < steps; ++i) {
-    const double start = runner::processorTime();
+    const double start = command::processorTime();
     before(i * asSeen(dt));
     specimen.substepOfOurs(dt);
-    outcome.seconds += runner::processorTime() - start;
+    outcome.seconds += command::processorTime() - start;
     const double miss =
         std::fabs(specimen.cloth().saturation(0) - closedForm((i + 1) * asSeen(dt))) / closedForm(cycleDuration);
     outcome.errors[0] = std::max(outcome.errors[0], miss);

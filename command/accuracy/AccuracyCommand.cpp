@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/AccuracyCommand.h"
 
 #include "command/accuracy/MeasuredFile.h"
@@ -27,23 +28,23 @@ namespace accuracy {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using runner::Precision;
+using command::Precision;
 
 std::vector<Study> carryOutNamed(const std::string& name, CarryOutStudies carryOut, const Effort& effort) {
-  runner::Progress progress("studying " + name);
+  command::Progress progress("studying " + name);
   return carryOut(effort, [&](double fraction) { progress.update(fraction); });
 }
 
 /// The quick studies of the other precision's program, or null when it is not there.
 nlohmann::json quickStudiesOf(Precision precision, char** arguments) {
-  const std::string program = runner::programOf(precision, arguments);
+  const std::string program = command::programOf(precision, arguments);
   if (program.empty()) return nullptr;
   namespace fs = std::filesystem;
   const fs::path file = fs::temp_directory_path() / ("wetcloth-" + std::to_string(std::random_device()()) + ".json");
   nlohmann::json studies;
   {
     pictures::ChildProgram child({program, "accuracy", "--quick", "--study", "alone", "--json", file.string()});
-    if (!child.finish()) throw runner::RunError("wetcloth: " + program + ": " + child.complaint());
+    if (!child.finish()) throw command::RunError("wetcloth: " + program + ": " + child.complaint());
     studies = nlohmann::json::parse(std::ifstream(file)).at("studies");
   }
   std::error_code ignored;
@@ -60,7 +61,7 @@ nlohmann::json ownQuickStudies() {
 }
 
 std::vector<Study> studyPrecision(char** arguments) {
-  const bool isFloat32 = runner::ownPrecision == Precision::float32;
+  const bool isFloat32 = command::ownPrecision == Precision::float32;
   const nlohmann::json others = quickStudiesOf(isFloat32 ? Precision::float64 : Precision::float32, arguments);
   if (others.is_null()) {
     std::cerr << "wetcloth: no program of the other precision beside this one, so no study of precision\n";
@@ -74,7 +75,7 @@ std::vector<Study> studyPrecision(char** arguments) {
 class StudyFiles {
  public:
   explicit StudyFiles(const std::string& directory) : m_directory(directory) {
-    if (!directory.empty()) m_plots = std::make_unique<runner::PlotFiles>(directory);
+    if (!directory.empty()) m_plots = std::make_unique<command::PlotFiles>(directory);
   }
   void add(const Study& study) {
     if (!m_plots) return;
@@ -89,7 +90,7 @@ class StudyFiles {
     write("measured.json", measured.dump(1) + "\n");
     const std::string qualities = markdownOf(qualityRows(measured));
     write("studies.md", (qualities.empty() ? "" : "## Qualities\n\n" + qualities + "\n") + "## Studies (" +
-                            runner::nameOf(runner::ownPrecision) + ")\n\n" + m_page);
+                            command::nameOf(command::ownPrecision) + ")\n\n" + m_page);
     if (m_plots->hasPictures()) return;
     std::cerr << "wetcloth: no gnuplot, so no pictures, only tables (Debian: apt install gnuplot-nox)\n";
   }
@@ -98,11 +99,11 @@ class StudyFiles {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream file(std::filesystem::path(m_directory) / name, std::ios::binary);
     file << text << std::flush;
-    if (!file) throw runner::RunError("wetcloth: --out = \"" + m_directory + "\": " + name + " could not be written");
+    if (!file) throw command::RunError("wetcloth: --out = \"" + m_directory + "\": " + name + " could not be written");
   }
 
   std::string m_directory;
-  std::unique_ptr<runner::PlotFiles> m_plots;
+  std::unique_ptr<command::PlotFiles> m_plots;
   std::vector<Study> m_studies;
   std::string m_page;
 };
@@ -118,10 +119,10 @@ std::vector<std::string> studyWords() {
 
 void studyAccuracy(const AccuracyOptions& options, char** arguments) {
   if (!options.precision.empty()) {
-    runner::continueInPrecision(runner::valueOf(runner::precisionNames(), options.precision), "wetcloth: --precision",
-                                arguments);
+    command::continueInPrecision(command::valueOf(command::precisionNames(), options.precision),
+                                 "wetcloth: --precision", arguments);
   }
-  runner::JsonOutput output(options.json);
+  command::JsonOutput output(options.json);
   StudyFiles files(options.directory);
   Json studies = Json::array();
   std::vector<Study> all;
@@ -141,7 +142,7 @@ void studyAccuracy(const AccuracyOptions& options, char** arguments) {
   files.finish();
   const std::vector<QualityRow> qualities = qualityRows(measuredJson(all));
   if (!output.ownsStandardOutput()) std::fputs(markdownOf(qualities).c_str(), stdout);
-  output.write({{"precision", runner::nameOf(runner::ownPrecision)},
+  output.write({{"precision", command::nameOf(command::ownPrecision)},
                 {"quick", options.isQuick},
                 {"studies", studies},
                 {"qualities", jsonOf(qualities)}});

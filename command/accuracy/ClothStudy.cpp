@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/ConvergenceOrder.h"
 #include "command/accuracy/HangingCloth.h"
 #include "command/accuracy/Studies.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/Studies.h"
 
 #include "command/ccd/CcdMethod.h"
@@ -32,16 +33,16 @@ std::vector<Tier> tiers(const Effort& effort) {
           {"textbook", 1e-9},     {"textbook", 1e-6},     {"textbook", 1e-3}, {"newton", 1e-6}};
 }
 
-std::vector<runner::KnownQuery> ofPair(const std::vector<runner::KnownQuery>& all, Pair pair) {
-  std::vector<runner::KnownQuery> some;
-  for (const runner::KnownQuery& query : all) {
+std::vector<command::KnownQuery> ofPair(const std::vector<command::KnownQuery>& all, Pair pair) {
+  std::vector<command::KnownQuery> some;
+  for (const command::KnownQuery& query : all) {
     if (query.pair == pair) some.push_back(query);
   }
   return some;
 }
 
 /// Shares of the contacts that were missed and of the others that were called contacts.
-std::vector<double> wrongShares(const runner::CcdMethod& method, const std::vector<runner::KnownQuery>& queries) {
+std::vector<double> wrongShares(const command::CcdMethod& method, const std::vector<command::KnownQuery>& queries) {
   std::vector<wetcloth::collision::Contact> contacts(queries.size());
   for (std::size_t first = 0; first < queries.size(); first += method.batch()) {
     method.answer(first, std::min(method.batch(), queries.size() - first), &contacts[first]);
@@ -59,11 +60,11 @@ std::vector<double> wrongShares(const runner::CcdMethod& method, const std::vect
 }
 
 /// None where the method has no such check, or is not in this build.
-std::optional<Setting> settingOf(const Tier& tier, Pair pair, const std::vector<runner::KnownQuery>& queries) {
-  std::shared_ptr<runner::CcdMethod> method;
+std::optional<Setting> settingOf(const Tier& tier, Pair pair, const std::vector<command::KnownQuery>& queries) {
+  std::shared_ptr<command::CcdMethod> method;
   try {
-    method = runner::makeCcdMethod(runner::ccdMethodNamed(tier.method), tier.tolerance, pair, queries);
-  } catch (const runner::InputError&) {
+    method = command::makeCcdMethod(command::ccdMethodNamed(tier.method), tier.tolerance, pair, queries);
+  } catch (const command::InputError&) {
     return std::nullopt;
   }
   if (!method) return std::nullopt;
@@ -80,14 +81,14 @@ std::optional<Setting> settingOf(const Tier& tier, Pair pair, const std::vector<
   const double count = static_cast<double>(queries.size());
   setting.nodes = count;
   setting.run = [method, &queries, count] {
-    return Outcome{wrongShares(*method, queries), 1e-9 * runner::timeOf(*method, 1).mean * count};
+    return Outcome{wrongShares(*method, queries), 1e-9 * command::timeOf(*method, 1).mean * count};
   };
   return setting;
 }
 
 std::vector<Study> studyPair(Pair pair, const std::string& word, const std::string& kind, const Effort& effort,
                              const TellProgress& tell) {
-  const std::vector<runner::KnownQuery> queries = ofPair(runner::readQueries(queryFile), pair);
+  const std::vector<command::KnownQuery> queries = ofPair(command::readQueries(queryFile), pair);
   const std::string count = std::to_string(queries.size());
   Plan plan;
   plan.knob = "tolerance";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/Specimen.h"
 #include "command/accuracy/Studies.h"
 
@@ -50,9 +51,9 @@ Outcome flatten(Method method, int side, double dt) {
   specimen.cloth().add<wetcloth::Diffusion>(parameters);
   setWave(specimen);
   const int steps = static_cast<int>(std::lround(waveDuration / dt));
-  const double start = runner::processorTime();
+  const double start = command::processorTime();
   for (int i = 0; i < steps; ++i) specimen.substepOfOurs(dt);
-  const double seconds = runner::processorTime() - start;
+  const double seconds = command::processorTime() - start;
   return {{waveError(specimen)}, seconds};
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/HangingCloth.h"
 
 #include "command/run/ProcessorTime.h"
@@ -43,9 +44,9 @@ Specimen::Settings settingsOf(const HangingCloth& cloth, const ClothSolver& solv
   settings.world.gravity = btVector3(0, btScalar(-HangingCloth::gravity), 0);
   settings.world.iterations = solver.iterations;
   if (solver.kind == ClothSolver::Kind::deformableExplicit || solver.kind == ClothSolver::Kind::deformableImplicit) {
-    settings.world.kind = runner::WorldKind::deformable;
+    settings.world.kind = command::WorldKind::deformable;
     settings.world.implicit = solver.kind == ClothSolver::Kind::deformableImplicit;
-    runner::DeformableSprings springs;
+    command::DeformableSprings springs;
     springs.stiffness = HangingCloth::stiffness;
     springs.bendingStiffness = HangingCloth::bendingStiffness;
     springs.damping = 0;
@@ -136,9 +137,9 @@ ClothRecord record(const HangingCloth& cloth, const ClothSolver& solver, double 
   noteNow(record, 0);
   const int steps = static_cast<int>(std::lround(60 * duration)) * solver.substeps;
   for (int i = 1; i <= steps && record.isFinite; ++i) {
-    const double start = runner::processorTime();
+    const double start = command::processorTime();
     specimen.substep(solver.substep());
-    record.seconds += runner::processorTime() - start;
+    record.seconds += command::processorTime() - start;
     noteNow(record, i * solver.substep());
   }
   return record;

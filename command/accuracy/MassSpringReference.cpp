@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/MassSpringReference.h"
 
 #include <cmath>

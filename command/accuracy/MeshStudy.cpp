@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/BarenblattSpread.h"
 #include "command/accuracy/Specimen.h"
 #include "command/accuracy/Studies.h"
@@ -63,10 +64,10 @@ Outcome blowOnCylinder(int side) {
   parameters.integration = Wind::Integration::explicitEuler;
   const Wind& wind = specimen.cloth().add<Wind>(parameters);
   constexpr int steps = 10;
-  const double start = runner::processorTime();
+  const double start = command::processorTime();
   // So short that the cloth is still at rest when it is over.
   for (int i = 0; i < steps; ++i) specimen.substepOfOurs(1e-9);
-  const double seconds = runner::processorTime() - start;
+  const double seconds = command::processorTime() - start;
   const double force = -static_cast<double>(wind.totalForce().y());
   return {{std::fabs(force / closedFormForce(parameters) - 1)}, seconds};
 }
@@ -99,9 +100,9 @@ Outcome spread(int columns) {
   std::vector<double> held;
   for (int i = 0; i < cloth.nodeCount(); ++i) held.push_back(form.saturation(place(i), 0) * cloth.capacity(i));
   cloth.setHeld(held);
-  const double start = runner::processorTime();
+  const double start = command::processorTime();
   for (int i = 0; i < std::lround(BarenblattSpread::duration * 960); ++i) specimen.substepOfOurs(1. / 960);
-  const double seconds = runner::processorTime() - start;
+  const double seconds = command::processorTime() - start;
   double miss = 0;
   double all = 0;
   for (int i = 0; i < cloth.nodeCount(); ++i) {
@@ -133,15 +134,16 @@ Outcome fallInAir(int side) {
   Specimen specimen(settings);
   const Wind::Parameters air;
   specimen.cloth().add<Wind>(air);
-  const double start = runner::processorTime();
+  const double start = command::processorTime();
   for (int i = 0; i < std::lround(fallDuration / fallStep); ++i) specimen.substep(fallStep);
-  const double seconds = runner::processorTime() - start;
+  const double seconds = command::processorTime() - start;
   double height = 0;
   for (int i = 0; i < specimen.body().m_nodes.size(); ++i) {
     height += static_cast<double>(specimen.body().m_nodes[i].m_x.y()) / specimen.nodes();
   }
-  const double terminal = runner::terminalSpeed(settings.patch.arealDensity, 9.81, air.airDensity, air.dragCoefficient);
-  return {{std::fabs(-height / runner::quadraticDragFall(fallDuration, 9.81, terminal) - 1)}, seconds};
+  const double terminal =
+      command::terminalSpeed(settings.patch.arealDensity, 9.81, air.airDensity, air.dragCoefficient);
+  return {{std::fabs(-height / command::quadraticDragFall(fallDuration, 9.81, terminal) - 1)}, seconds};
 }
 
 std::vector<Study> studyFallMesh(const std::vector<int>& sides, const Effort& effort, const TellProgress& tell) {

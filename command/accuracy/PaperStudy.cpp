@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/Specimen.h"
 #include "command/accuracy/Studies.h"
 
@@ -25,9 +26,9 @@ Outcome soak(wetcloth::Absorption::Law law) {
   wetcloth::Absorption::Parameters parameters;
   parameters.law = law;
   specimen.cloth().add<wetcloth::Absorption>(parameters);
-  const double start = runner::processorTime();
+  const double start = command::processorTime();
   for (int i = 0; i < std::lround(soakDuration / dt); ++i) specimen.substepOfOurs(dt);
-  const double seconds = runner::processorTime() - start;
+  const double seconds = command::processorTime() - start;
   const double exact = 1 - std::exp(-soakDuration / settings.fabric.timeConstant);
   return {{std::fabs(specimen.cloth().saturation(0) / exact - 1)}, seconds};
 }
@@ -37,12 +38,12 @@ Outcome soak(wetcloth::Absorption::Law law) {
 Outcome soakAsPrinted() {
   const wetcloth::Fabric cotton = wetcloth::Fabric::cotton();
   double saturation = 0;
-  const double start = runner::processorTime();
+  const double start = command::processorTime();
   for (int i = 0; i < std::lround(soakDuration / dt); ++i) {
     const double rate = std::exp(-i * dt / cotton.timeConstant) / cotton.timeConstant;
     saturation = std::min(1.0, saturation + i * dt * rate);
   }
-  const double seconds = runner::processorTime() - start;
+  const double seconds = command::processorTime() - start;
   const double exact = 1 - std::exp(-soakDuration / cotton.timeConstant);
   return {{std::fabs(saturation / exact - 1)}, seconds};
 }
@@ -55,9 +56,9 @@ Outcome blow(const wetcloth::Wind::Parameters& wind, int side) {
   Specimen specimen(settings);
   const auto& effect = specimen.cloth().add<wetcloth::Wind>(wind);
   constexpr int steps = 60;
-  const double start = runner::processorTime();
+  const double start = command::processorTime();
   for (int i = 0; i < steps; ++i) specimen.substepOfOurs(1e-9);
-  const double seconds = runner::processorTime() - start;
+  const double seconds = command::processorTime() - start;
   const double speed = static_cast<double>(wind.velocity.at(btVector3(0, 0, 0), 0).y());
   const double pressure = wind.airDensity * wind.dragCoefficient * speed * speed / 2;
   return {{std::fabs(static_cast<double>(effect.totalForce().y()) / pressure - 1)}, seconds};
@@ -84,9 +85,9 @@ Outcome soakInFall(bool conservesMomentum) {
   parameters.conservesMomentum = conservesMomentum;
   specimen.cloth().add<wetcloth::Absorption>(parameters);
   const double dry = specimen.cloth().totalMass();
-  const double start = runner::processorTime();
+  const double start = command::processorTime();
   for (int i = 0; i < std::lround(duration / dt); ++i) specimen.substep(dt);
-  const double seconds = runner::processorTime() - start;
+  const double seconds = command::processorTime() - start;
   double momentum = 0;
   for (int i = 0; i < specimen.cloth().nodeCount(); ++i) {
     const double mass = specimen.cloth().dryMass(i) + specimen.cloth().held(i);

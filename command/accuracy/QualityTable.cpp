@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/QualityTable.h"
 
 #include "command/accuracy/Advice.h"
@@ -9,17 +10,17 @@
 namespace accuracy {
 
 std::vector<QualityRow> qualityRows(const nlohmann::json& measured) {
-  const std::vector<runner::MeasuredPoint> points = runner::readMeasuredPoints(measured);
+  const std::vector<command::MeasuredPoint> points = command::readMeasuredPoints(measured);
   std::vector<QualityRow> rows;
   for (const char* const elasticity : {"Bullet's links", "HookeSprings", "deformable, implicit"}) {
-    const std::vector<runner::StudyOfScene> studies{{"cloth_sag", elasticity},
-                                                    {"cloth_period", elasticity},
-                                                    {"wind_quadratic", "semi-implicit"},
-                                                    {"absorption", "exact, exposure at the start"},
-                                                    {"diffusion", "factored"}};
-    for (const auto& [name, quality] : runner::qualityNames()) {
-      const double allowed = runner::allowedError(quality);
-      runner::SteppingChoice choice = runner::cheapestStepping(studies, allowed, points);
+    const std::vector<command::StudyOfScene> studies{{"cloth_sag", elasticity},
+                                                     {"cloth_period", elasticity},
+                                                     {"wind_quadratic", "semi-implicit"},
+                                                     {"absorption", "exact, exposure at the start"},
+                                                     {"diffusion", "factored"}};
+    for (const auto& [name, quality] : command::qualityNames()) {
+      const double allowed = command::allowedError(quality);
+      command::SteppingChoice choice = command::cheapestStepping(studies, allowed, points);
       if (choice.substep > 0) rows.push_back({name, allowed, elasticity, choice});
     }
   }

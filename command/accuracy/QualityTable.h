@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/MeasuredFront.h"
@@ -14,7 +15,7 @@ struct QualityRow {
   std::string quality;
   double allowedError = 0;
   std::string elasticity;
-  runner::SteppingChoice choice;
+  command::SteppingChoice choice;
 };
 
 /// @param measured  as measuredJson() has it; empty when it lacks a study

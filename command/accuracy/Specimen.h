@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/BulletWorld.h"
@@ -15,8 +16,8 @@ class Specimen {
   struct Settings {
     wetcloth::ClothPatch patch;
     wetcloth::Fabric fabric = wetcloth::Fabric::cotton();
-    runner::BulletWorld::Settings world;
-    std::optional<runner::DeformableSprings> springs;  ///< of the deformable world
+    command::BulletWorld::Settings world;
+    std::optional<command::DeformableSprings> springs;  ///< of the deformable world
   };
 
   explicit Specimen(const Settings& settings);
@@ -31,7 +32,7 @@ class Specimen {
   void substepOfOurs(double dt) { m_wetWorld->preTick(btScalar(dt)); }
 
  private:
-  runner::BulletWorld m_world;
+  command::BulletWorld m_world;
   std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;  // after the world: it detaches before the world goes
   btSoftBody* m_body;
   wetcloth::WetCloth* m_cloth;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/Specimen.h"
 #include "command/accuracy/Studies.h"
 
@@ -79,13 +80,13 @@ Outcome splitExactly(bool strang, double dt) {
   const Eigen::VectorXd soak = soakedShares(strang ? dt / 2 : dt);
   Eigen::VectorXd s = Eigen::VectorXd::Zero(chain);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(chain);
-  const double start = runner::processorTime();
+  const double start = command::processorTime();
   for (int i = 0; i < std::lround(chainDuration / dt); ++i) {
     s += soak.cwiseProduct(ones - s);
     s = (wick * s).eval();
     if (strang) s += soak.cwiseProduct(ones - s);
   }
-  return {{largestError(s)}, runner::processorTime() - start};
+  return {{largestError(s)}, command::processorTime() - start};
 }
 
 /// An effect of the library for a part of each step, at a stage of one's choice.
@@ -134,9 +135,9 @@ Outcome splitByTheLibrary(bool strang, double dt) {
   diffusion.exponent = 0;
   cloth.add<wetcloth::Diffusion>(diffusion);
   if (strang) cloth.add(std::make_unique<PartOfStep>(makeAbsorption(), wetcloth::Stage::losses, share));
-  const double start = runner::processorTime();
+  const double start = command::processorTime();
   for (int i = 0; i < std::lround(chainDuration / dt); ++i) specimen.substepOfOurs(dt);
-  const double seconds = runner::processorTime() - start;
+  const double seconds = command::processorTime() - start;
   Eigen::VectorXd s(chain);
   for (int i = 0; i < chain; ++i) s(i) = cloth.saturation(i);
   return {{largestError(s)}, seconds};

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/Studies.h"
 
 namespace accuracy {

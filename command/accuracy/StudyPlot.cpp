@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/StudyPlot.h"
 
 #include "command/plot/Plots.h"
@@ -13,7 +14,7 @@
 namespace accuracy {
 namespace {
 
-namespace colours = runner::plot_colours;
+namespace colours = command::plot_colours;
 
 const std::array<const char*, 10> palette = {colours::blue,   colours::red,   colours::green, colours::orange,
                                              colours::purple, colours::black, "#1aa6a6",      "#b5478c",
@@ -48,13 +49,13 @@ std::string labelOf(const Point& point) {
   return point.label;
 }
 
-void addPoint(runner::PlotSeries& series, const Point& point, const Drawing& drawing, const std::string& label) {
+void addPoint(command::PlotSeries& series, const Point& point, const Drawing& drawing, const std::string& label) {
   series.add(timeOf(point, drawing.work), std::min(point.error > 0 ? point.error : drawing.lowest, highestDrawn));
   series.labels.push_back(label);
 }
 
 /// Labels of what is on the front and of the ends of each curve: all of them would cover each other.
-void thinLabels(runner::PlotSeries& series, const std::vector<bool>& isOnFront, const Drawing& drawing) {
+void thinLabels(command::PlotSeries& series, const std::vector<bool>& isOnFront, const Drawing& drawing) {
   const std::size_t size = series.labels.size();
   for (std::size_t i = 0; i < size; ++i) {
     const bool isEnd = i == 0 || i + 1 == size;
@@ -62,17 +63,17 @@ void thinLabels(runner::PlotSeries& series, const std::vector<bool>& isOnFront, 
   }
 }
 
-runner::PlotSeries frontOf(const Study& study, const Drawing& drawing) {
+command::PlotSeries frontOf(const Study& study, const Drawing& drawing) {
   std::vector<Point> front;
   for (const Point& point : study.points) {
     if (point.isOnFront) front.push_back(point);
   }
   std::sort(front.begin(), front.end(),
             [](const Point& a, const Point& b) { return a.microsecondsPerNodeSecond < b.microsecondsPerNodeSecond; });
-  runner::PlotSeries series;
+  command::PlotSeries series;
   series.name = "front";
   series.legend = "Pareto front";
-  series.mark = runner::PlotSeries::Mark::reference;
+  series.mark = command::PlotSeries::Mark::reference;
   series.colour = "#555555";
   for (const Point& point : front) addPoint(series, point, drawing, "");
   return series;
@@ -80,8 +81,8 @@ runner::PlotSeries frontOf(const Study& study, const Drawing& drawing) {
 
 }  // namespace
 
-runner::Plot plotOf(const Study& study) {
-  runner::Plot plot;
+command::Plot plotOf(const Study& study) {
+  command::Plot plot;
   plot.name = study.measure.name;
   plot.title = study.measure.title;
   const bool isOfQueries = study.work == Work::queries;
@@ -89,15 +90,15 @@ runner::Plot plotOf(const Study& study) {
   plot.yColumn = "error";
   plot.xLabel = isOfQueries ? "time [ns per query]" : "time [us per node and simulated second]";
   plot.yLabel = study.measure.error;
-  plot.xScale = plot.yScale = runner::Plot::Scale::logarithmic;
+  plot.xScale = plot.yScale = command::Plot::Scale::logarithmic;
   plot.keyPlace = "outside right top vertical";
   const std::vector<std::string> methods = methodsOf(study.points);
   const Drawing drawing = {lowestDrawn(study), study.work, methods.size() > 5};
   plot.series.push_back(frontOf(study, drawing));
   for (const std::string& method : methods) {
-    runner::PlotSeries series;
+    command::PlotSeries series;
     series.name = series.legend = method;
-    series.mark = runner::PlotSeries::Mark::labelled;
+    series.mark = command::PlotSeries::Mark::labelled;
     series.colour = palette[(plot.series.size() - 1) % palette.size()];
     std::vector<bool> isOnFront;
     for (const Point& point : study.points) {

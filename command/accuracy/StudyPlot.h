@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/accuracy/Study.h"
@@ -6,6 +7,6 @@
 namespace accuracy {
 
 /// Error against time per node and simulated second, both logarithmic, labelled by setting; the front as a line below.
-runner::Plot plotOf(const Study& study);
+command::Plot plotOf(const Study& study);
 
 }  // namespace accuracy

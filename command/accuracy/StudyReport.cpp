@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/StudyReport.h"
 
 #include "command/accuracy/Advice.h"

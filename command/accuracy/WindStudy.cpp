@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/accuracy/ConvergenceOrder.h"
 #include "command/accuracy/Specimen.h"
 #include "command/accuracy/Studies.h"
@@ -37,7 +38,7 @@ Wind::Parameters stillAir(Wind::Law law, Wind::Integration integration) {
 
 double terminalSpeed(Wind::Law law) {
   return law == Wind::Law::linear ? gravity * linearTime
-                                  : runner::terminalSpeed(voile, gravity, airDensity, dragCoefficient);
+                                  : command::terminalSpeed(voile, gravity, airDensity, dragCoefficient);
 }
 
 double closedFormSpeed(Wind::Law law, double time) {
@@ -54,9 +55,9 @@ Outcome fallInAir(Wind::Law law, Wind::Integration integration, double dt) {
   const btSoftBody::Node& middle = specimen.body().m_nodes[fallSide * fallSide / 2 + fallSide / 2];
   Outcome outcome{{0}, 0};
   for (int i = 1; i <= std::lround(sheetDuration / dt); ++i) {
-    const double start = runner::processorTime();
+    const double start = command::processorTime();
     specimen.substep(dt);
-    outcome.seconds += runner::processorTime() - start;
+    outcome.seconds += command::processorTime() - start;
     const double miss = std::fabs(-static_cast<double>(middle.m_v.y()) - closedFormSpeed(law, i * dt));
     // Not std::max(), which would let NaN pass.
     if (!(miss / terminalSpeed(law) <= outcome.errors[0])) outcome.errors[0] = miss / terminalSpeed(law);
@@ -98,9 +99,9 @@ std::vector<btVector3> fly(Wind::Integration integration, double dt, double* sec
   springs.stiffness = 50;
   springs.bendingStiffness = 0.1;
   specimen.cloth().add<wetcloth::HookeSprings>(springs);
-  const double start = runner::processorTime();
+  const double start = command::processorTime();
   for (int i = 0; i < std::lround(flagDuration / dt); ++i) specimen.substep(dt);
-  if (seconds != nullptr) *seconds = runner::processorTime() - start;
+  if (seconds != nullptr) *seconds = command::processorTime() - start;
   return positionsOf(specimen.body());
 }
 

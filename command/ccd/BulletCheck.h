@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <bullet_wetcloth/collision/Query.h>
@@ -5,7 +6,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 #include <BulletSoftBody/btSoftBodyInternals.h>
 
-namespace runner {
+namespace command {
 
 /// A vertex-face query as a face and a node of Bullet's deformable world, at the moment at which
 /// btDeformableMultiBodyDynamicsWorld looks for collisions. Bullet has no edge-edge check.
@@ -78,4 +79,4 @@ inline bool bulletContinuousCheck(const wetcloth::collision::Query<double>& quer
   return BulletQuery(query, step).check();
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/ccd/CcdCommand.h"
 
 #include "command/ccd/CcdMethod.h"
@@ -10,7 +11,7 @@
 #include <cstdio>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 void checkQueries(const CcdOptions& options, char** arguments) {
   const CcdMethodInfo& method = ccdMethodNamed(options.method);
@@ -31,4 +32,4 @@ void checkQueries(const CcdOptions& options, char** arguments) {
   if (!output.ownsStandardOutput()) std::fputs(report.table(options.disagreements).c_str(), stdout);
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <optional>
 #include <string>
 
-namespace runner {
+namespace command {
 
 struct CcdOptions {
   std::string file;
@@ -18,4 +19,4 @@ struct CcdOptions {
 /// `wetcloth ccd`. @param arguments of the program, for its sibling of the other precision
 void checkQueries(const CcdOptions& options, char** arguments);
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/ccd/CcdMethod.h"
 
 #include "command/ccd/BulletCheck.h"
@@ -10,7 +11,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace runner {
+namespace command {
 namespace {
 
 using wetcloth::collision::CheckSettings;
@@ -148,4 +149,4 @@ std::unique_ptr<CcdMethod> makeCcdMethod(const CcdMethodInfo& info, std::optiona
   return oneByOne(std::move(points), [=](const Query& query) { return check(pair, query); });
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/ccd/QueryFile.h"
@@ -10,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// A way to answer collision queries, with those it is to answer.
 class CcdMethod {
@@ -47,4 +48,4 @@ std::unique_ptr<CcdMethod> makeCcdMethod(const CcdMethodInfo& info, std::optiona
 /// The same complaints without any queries, before a long file is read.
 void requireCcdMethod(const CcdMethodInfo& info, std::optional<double> tolerance);
 
-}  // namespace runner
+}  // namespace command

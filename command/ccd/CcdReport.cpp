@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/ccd/CcdReport.h"
 
 #include "command/scene/Scene.h"
@@ -6,7 +7,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace runner {
+namespace command {
 namespace {
 
 using nlohmann::ordered_json;
@@ -153,4 +154,4 @@ std::string CcdReport::table(bool withDisagreements) const {
   return text;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/ccd/CcdMethod.h"
@@ -9,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// How a method did against the exact answers of a file.
 class CcdReport {
@@ -48,4 +49,4 @@ class CcdReport {
   std::vector<Row> m_rows;
 };
 
-}  // namespace runner
+}  // namespace command

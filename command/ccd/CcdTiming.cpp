@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/ccd/CcdTiming.h"
 
 #include "command/cli/Progress.h"
@@ -9,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace runner {
+namespace command {
 namespace {
 
 using wetcloth::collision::Contact;
@@ -78,4 +79,4 @@ CcdTimes timeOf(const CcdMethod& method, int passes) {
   return times;
 }
 
-}  // namespace runner
+}  // namespace command

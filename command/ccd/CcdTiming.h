@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/ccd/CcdMethod.h"
 
-namespace runner {
+namespace command {
 
 /// Nanoseconds per query.
 struct CcdTimes {
@@ -17,4 +18,4 @@ struct CcdTimes {
 /// Times a method that has at least one query. Everything is done `passes` times, and the median of them counts.
 CcdTimes timeOf(const CcdMethod& method, int passes);
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/ccd/Gunzip.h"
 
 #include <zlib.h>
@@ -8,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace runner {
+namespace command {
 namespace {
 
 constexpr std::size_t mostText = std::size_t(1) << 30;  // a small file can unpack to more than the memory holds
@@ -71,4 +72,4 @@ std::string gunzipped(std::string data) {
   return text;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/ccd/QueryFile.h"
 
 #include "command/ccd/Gunzip.h"
@@ -13,7 +14,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace runner {
+namespace command {
 namespace {
 
 const std::vector<std::string>& columnNames() {
@@ -146,4 +147,4 @@ std::vector<KnownQuery> readQueries(const std::string& file) {
   return queries;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <bullet_wetcloth/collision/Query.h>
@@ -5,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// A collision query of a file, and its exact answer.
 struct KnownQuery {
@@ -19,4 +20,4 @@ struct KnownQuery {
 /// 24 coordinates. Throws InputError with file, line and column for the first thing that is wrong.
 std::vector<KnownQuery> readQueries(const std::string& file);
 
-}  // namespace runner
+}  // namespace command

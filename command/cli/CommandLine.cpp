@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/cli/CommandLine.h"
 
 #include "command/ccd/CcdCommand.h"
@@ -30,7 +31,7 @@
 #define WETCLOTH_VERSION "0.1.0"
 #endif
 
-namespace runner {
+namespace command {
 namespace {
 
 const char* const examples = R"(Examples:
@@ -365,4 +366,4 @@ int runCommandLine(int count, char** arguments) {
   return 0;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <stdexcept>
 #include <string>
 
-namespace runner {
+namespace command {
 
 /// Bad usage or bad input: exit status 2. Its text is the one line that the user sees.
 class InputError : public std::runtime_error {
@@ -26,4 +27,4 @@ inline std::string onOneLine(std::string text) {
   return text;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/cli/JsonOutput.h"
 
 #include "command/cli/Errors.h"
@@ -8,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-namespace runner {
+namespace command {
 
 JsonOutput::JsonOutput(std::string target) : m_target(std::move(target)) {
   if (!isFile()) return;
@@ -34,4 +35,4 @@ void JsonOutput::write(const nlohmann::ordered_json& json) {
   if (!file) throw RunError("wetcloth: --json = \"" + m_target + "\": could not be written");
 }
 
-}  // namespace runner
+}  // namespace command

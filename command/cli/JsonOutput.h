@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <nlohmann/json.hpp>
 
 #include <string>
 
-namespace runner {
+namespace command {
 
 /// Where --json goes: nowhere (""), standard output ("-") or a file. The file is tried before the work begins, so a
 /// long run is not lost to a slip in its name.
@@ -28,4 +29,4 @@ class JsonOutput {
   bool m_removeUnlessWritten = false;
 };
 
-}  // namespace runner
+}  // namespace command

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #include "command/cli/NearestWord.h"
 
 #include <algorithm>
 #include <cstddef>
 
-namespace runner {
+namespace command {
 
 int editDistance(const std::string& a, const std::string& b) {
   std::vector<std::vector<int>> cost(a.size() + 1, std::vector<int>(b.size() + 1));
@@ -47,4 +48,4 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// Number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
 int editDistance(const std::string& a, const std::string& b);
@@ -14,4 +15,4 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
 /// The words with commas between them.
 std::string joined(const std::vector<std::string>& words);
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/cli/Progress.h"
 
 #include <cmath>
@@ -13,7 +14,7 @@
 #include <unistd.h>
 #endif
 
-namespace runner {
+namespace command {
 
 Progress::Progress(std::string task)
     : m_task(std::move(task)),
@@ -56,4 +57,4 @@ void Progress::update(double fraction) {
   std::fflush(stderr);
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <chrono>
 #include <string>
 
-namespace runner {
+namespace command {
 
 /// Says on standard error how far a long task is and how much longer it will take, once it has taken more than two
 /// seconds: one line with a bar, rewritten, on a terminal; a line now and then elsewhere.
@@ -29,4 +30,4 @@ class Progress {
   Clock::time_point m_next;
 };
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/cli/Sibling.h"
 
 #include "command/cli/Errors.h"
@@ -13,7 +14,7 @@
 #include <unistd.h>
 #endif
 
-namespace runner {
+namespace command {
 namespace {
 
 std::filesystem::path ownDirectory(const char* argument0) {
@@ -61,4 +62,4 @@ void continueInPrecision(Precision wanted, const std::string& wantedBy, char** a
                    "\" here, for there is no " + sibling.string() + " that computes in " + nameOf(wanted));
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/Scene.h"
 
 #include <string>
 
-namespace runner {
+namespace command {
 
 /// Bullet's precision is chosen when a program is compiled, so there are two programs: `wetcloth` and, in the same
 /// directory, `wetcloth-float64`. When this one has another precision than is wanted, goes on as the other one with
@@ -16,4 +17,4 @@ void continueInPrecision(Precision wanted, const std::string& wantedBy, char** a
 /// @param arguments  of this program
 std::string programOf(Precision precision, char** arguments);
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/cli/StagedOutput.h"
 
 #include "command/cli/Errors.h"
@@ -12,7 +13,7 @@
 #include <unistd.h>
 #endif
 
-namespace runner {
+namespace command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -67,4 +68,4 @@ void StagedOutput::commit() {
   if (failed) throw RunError(m_option + ": could not be written (" + failed.message() + ")");
 }
 
-}  // namespace runner
+}  // namespace command

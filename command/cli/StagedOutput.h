@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-namespace runner {
+namespace command {
 
 /// A file or folder that is made beside where it belongs and moved there when it is complete, so that nothing
 /// unfinished ever has the final name. What was not moved is removed.
@@ -34,4 +35,4 @@ class StagedOutput {
   Kind m_kind;
 };
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/cli/TextFile.h"
 
 #include <filesystem>
@@ -6,7 +7,7 @@
 #include <stdexcept>
 #include <system_error>
 
-namespace runner {
+namespace command {
 
 std::string readTextFile(const std::string& path) {
   std::error_code ignored;
@@ -20,4 +21,4 @@ std::string readTextFile(const std::string& path) {
   return text;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/cost/CostCommand.h"
 
 #include "command/cli/JsonOutput.h"
@@ -12,7 +13,7 @@
 #include <chrono>
 #include <cstdio>
 
-namespace runner {
+namespace command {
 namespace {
 
 constexpr int mostSteps = 300;        // more do not make the medians any steadier
@@ -55,4 +56,4 @@ void measureCost(const CostOptions& options, char** arguments) {
   if (!output.ownsStandardOutput()) std::fputs(report.text().c_str(), stdout);
 }
 
-}  // namespace runner
+}  // namespace command

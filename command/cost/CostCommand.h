@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <optional>
 #include <string>
 
-namespace runner {
+namespace command {
 
 struct CostOptions {
   std::string scene;         ///< empty: the built-in one
@@ -15,4 +16,4 @@ struct CostOptions {
 /// `wetcloth cost`. @param arguments of the program, for its sibling of the other precision
 void measureCost(const CostOptions& options, char** arguments);
 
-}  // namespace runner
+}  // namespace command

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #include "command/cost/CostReport.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-namespace runner {
+namespace command {
 namespace {
 
 double floorOf(const CostEstimate& twins) { return std::max(std::fabs(twins.median), twins.halfWidth); }
@@ -137,4 +138,4 @@ std::string CostReport::text() const {
   return text + row(m_all) + "\n" + legend;
 }
 
-}  // namespace runner
+}  // namespace command

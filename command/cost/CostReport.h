@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/cost/CostRun.h"
@@ -8,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// What the samples of a CostRun say.
 class CostReport {
@@ -51,4 +52,4 @@ class CostReport {
   std::vector<Cost> m_effects;
 };
 
-}  // namespace runner
+}  // namespace command

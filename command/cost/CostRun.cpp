@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/cost/CostRun.h"
 
 #include "command/cli/Errors.h"
@@ -6,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace runner {
+namespace command {
 namespace {
 
 /// Numbers that are not finite are the same as each other: no comparison tells them apart.
@@ -103,4 +104,4 @@ bool CostRun::isIdleSameAsPlain() const {
                     [](const btSoftBody* a, const btSoftBody* b) { return sameState(*a, *b); });
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/cost/CostWorld.h"
@@ -5,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// Worlds that differ in one effect take turns at stepping the same scene, so that whatever else the machine does
 /// slows all of them. What an effect costs is then the difference between two worlds, step by step.
@@ -61,4 +62,4 @@ class CostRun {
   int m_stepsDone = 0;
 };
 
-}  // namespace runner
+}  // namespace command

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #include "command/cost/CostScene.h"
 
 #include "command/scene/EffectReader.h"
 #include "command/scene/SceneKeys.h"
 
-namespace runner {
+namespace command {
 namespace {
 
 /// From the table of keys, so that an effect that is new there is measured here.
@@ -41,4 +42,4 @@ Scene costScene() {
   return scene;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/cost/CostStatistics.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include <cstddef>
 #include <numeric>
 
-namespace runner {
+namespace command {
 namespace {
 
 template <class Operation>
@@ -42,4 +43,4 @@ CostEstimate estimateRatio(const std::vector<double>& after, const std::vector<d
   return estimatePairs(after, before, [](double a, double b) { return a / b; });
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// A typical value of samples whose errors are outliers: another process that took the core for a while.
 struct CostEstimate {
@@ -18,4 +19,4 @@ CostEstimate estimate(std::vector<double> samples);
 CostEstimate estimateDifference(const std::vector<double>& after, const std::vector<double>& before);
 CostEstimate estimateRatio(const std::vector<double>& after, const std::vector<double>& before);
 
-}  // namespace runner
+}  // namespace command

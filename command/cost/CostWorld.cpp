@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/cost/CostWorld.h"
 
 #include "command/run/ProcessorTime.h"
@@ -7,7 +8,7 @@
 #include <functional>
 #include <memory>
 
-namespace runner {
+namespace command {
 namespace {
 
 /// "HookeSprings" as "hooke_springs": a class as the scene's key for it.
@@ -82,4 +83,4 @@ std::vector<std::string> effectNames(const SceneWorld& world) {
   return names;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/SceneWorld.h"
@@ -6,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// A scene of which some effects are left out, and whose steps are timed: by the processor's time spent on them, so
 /// that a process which takes the core for a while does not count.
@@ -39,4 +40,4 @@ class CostWorld {
 /// The names of a world's effects as a scene spells them, "hooke_springs", each once, in the order of the step.
 std::vector<std::string> effectNames(const SceneWorld& world);
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/fall/Fall.h"
 
 #include "command/cli/Errors.h"
@@ -7,7 +8,7 @@
 #include <chrono>
 #include <string>
 
-namespace runner {
+namespace command {
 namespace {
 
 constexpr double paperTimeConstant = 0.585;  // m_dry / c [s]
@@ -94,4 +95,4 @@ FallResult fall(const FallMode& mode, const FallMode::Case& fallCase, double hei
   return result;
 }
 
-}  // namespace runner
+}  // namespace command

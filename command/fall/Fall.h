@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/Scene.h"
@@ -5,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 constexpr double fallGravity = 9.81;       ///< [m/s^2]
 constexpr double fallSubstep = 1.0 / 240;  ///< [s]
@@ -49,4 +50,4 @@ struct FallResult {
 /// Throws RunError when it never does.
 FallResult fall(const FallMode& mode, const FallMode::Case& fallCase, double height, WorldKind kind);
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/fall/FallCommand.h"
 
 #include "command/cli/Errors.h"
@@ -9,7 +10,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace runner {
+namespace command {
 namespace {
 
 constexpr double highest = 1000;  // a fall from higher takes this command more than a minute
@@ -73,4 +74,4 @@ void compareFalls(const FallOptions& options, char** arguments) {
   if (!output.ownsStandardOutput()) printTable(results, mode, height, options.world);
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/Scene.h"
@@ -5,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace runner {
+namespace command {
 
 struct FallOptions {
   std::optional<double> height;  ///< [m]; none: the mode's own
@@ -18,4 +19,4 @@ struct FallOptions {
 /// `wetcloth fall`. @param arguments of the program, for its sibling of the other precision
 void compareFalls(const FallOptions& options, char** arguments);
 
-}  // namespace runner
+}  // namespace command

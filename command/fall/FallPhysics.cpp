@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #include "command/fall/FallPhysics.h"
 
 #include <cmath>
 
-namespace runner {
+namespace command {
 
 double vacuumFallTime(double height, double gravity) { return std::sqrt(2 * height / gravity); }
 
@@ -42,4 +43,4 @@ double terminalSpeed(double arealDensity, double gravity, double airDensity, dou
   return std::sqrt(2 * arealDensity * gravity / (airDensity * dragCoefficient));
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
-namespace runner {
+namespace command {
 
 /// Closed forms of a fall from rest. Lengths in m, times in s, SI throughout.
 
@@ -23,4 +24,4 @@ double quadraticDragFall(double time, double gravity, double terminalSpeed);
 /// Terminal speed of a flat sheet that falls broadside: sqrt(2 sigma g / (rho C_d)).
 double terminalSpeed(double arealDensity, double gravity, double airDensity, double dragCoefficient);
 
-}  // namespace runner
+}  // namespace command

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #include "command/fall/FallingCloth.h"
 
 #include <utility>
 
-namespace runner {
+namespace command {
 namespace {
 
 /// Height of the centre of mass. All nodes of one fabric are equally wet, so their masses weigh as their areas do.
@@ -76,4 +77,4 @@ void FallingCloth::substep() {
   for (; m_fallen - m_lifted > 1; ++m_lifted) liftByOneMetre(*m_body);
 }
 
-}  // namespace runner
+}  // namespace command

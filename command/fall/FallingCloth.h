@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/fall/Fall.h"
@@ -5,7 +6,7 @@
 
 #include <memory>
 
-namespace runner {
+namespace command {
 
 /// A level cloth of 32 x 32 nodes that falls from rest.
 class FallingCloth {
@@ -28,4 +29,4 @@ class FallingCloth {
   double m_lifted = 0;  // [m], see liftByOneMetre()
 };
 
-}  // namespace runner
+}  // namespace command

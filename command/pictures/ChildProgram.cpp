@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/ChildProgram.h"
 
 #include "command/pictures/Unavailable.h"

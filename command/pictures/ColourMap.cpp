@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/ColourMap.h"
 
 #include <algorithm>

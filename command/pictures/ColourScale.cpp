@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/ColourScale.h"
 
 #include <algorithm>

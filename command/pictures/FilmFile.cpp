@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/FilmFile.h"
 
 #include "command/pictures/Unavailable.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/Font.h"
 
 #include "Embedded.h"

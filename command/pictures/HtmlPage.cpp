@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/HtmlPage.h"
 
 #include "Embedded.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/Matrix4.h"
 
 #include "command/pictures/VectorMath.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/ObjFile.h"
 
 #include "command/pictures/ClothNames.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/PackedRun.h"
 
 #include "command/pictures/LittleEndian.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/PlySequence.h"
 
 #include "command/pictures/ClothColour.h"

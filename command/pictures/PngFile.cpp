@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/PngFile.h"
 
 #include "command/pictures/OutputFile.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/PointCache2.h"
 
 #include "command/pictures/LittleEndian.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/Rods.h"
 
 #include "command/pictures/VectorMath.h"

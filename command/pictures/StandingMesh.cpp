@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/StandingMesh.h"
 
 #include "command/pictures/Bounds.h"

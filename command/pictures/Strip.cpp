@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/Strip.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/UsdFile.h"
 
 #include "command/pictures/Bounds.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/VtkSeries.h"
 
 #include "command/pictures/ClothColour.h"

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #include "command/fall/FallingCloth.h"
 #include "command/plot/Plots.h"
 
 #include <algorithm>
 
-namespace runner {
+namespace command {
 namespace {
 
 /// What stays of the height while one cloth falls to the floor.
@@ -81,4 +82,4 @@ std::vector<Plot> fallPlots(const PlotProgress& progress) {
   return {paper, physical};
 }
 
-}  // namespace runner
+}  // namespace command

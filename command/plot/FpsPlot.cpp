@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/fall/FallingCloth.h"
 #include "command/plot/Plots.h"
 
@@ -6,7 +7,7 @@
 #include <ctime>
 #include <memory>
 
-namespace runner {
+namespace command {
 namespace {
 
 constexpr std::size_t window = 20;  // frames of which the median counts
@@ -95,4 +96,4 @@ std::vector<Plot> fpsPlots(const PlotProgress& progress) {
   return {plot};
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/plot/Gnuplot.h"
 
 #include "command/cli/Errors.h"
@@ -5,7 +6,7 @@
 #include "command/pictures/ChildProgram.h"
 #include "command/pictures/Unavailable.h"
 
-namespace runner {
+namespace command {
 
 bool runGnuplot(const std::string& script) {
   try {
@@ -17,4 +18,4 @@ bool runGnuplot(const std::string& script) {
   }
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #include "command/plot/Plots.h"
 #include "command/scene/BulletWorld.h"
 
 #include <cmath>
 
-namespace runner {
+namespace command {
 namespace {
 
 constexpr double dryGrams = 0.01;  // of a node in the paper
@@ -82,4 +83,4 @@ std::vector<Plot> massPlots(const PlotProgress& progress) {
   return {plot};
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/plot/Plot.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include <cstddef>
 #include <cstdio>
 
-namespace runner {
+namespace command {
 namespace {
 
 std::string numberText(double number) {
@@ -86,4 +87,4 @@ std::string gnuplotScript(const Plot& plot, const std::string& csv, const std::s
   return script;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// A curve of a plot.
 struct PlotSeries {
@@ -54,4 +55,4 @@ std::string csvOf(const Plot& plot);
 /// What draws the plot from its CSV file in gnuplot, to pictures as SVG and as PNG.
 std::string gnuplotScript(const Plot& plot, const std::string& csv, const std::string& svg, const std::string& png);
 
-}  // namespace runner
+}  // namespace command

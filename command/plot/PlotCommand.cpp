@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/plot/PlotCommand.h"
 
 #include "command/cli/JsonOutput.h"
@@ -9,7 +10,7 @@
 #include <cstdio>
 #include <iostream>
 
-namespace runner {
+namespace command {
 namespace {
 
 std::vector<Plot> plotsOf(const std::string& name, MakePlots make) {
@@ -59,4 +60,4 @@ void makePlots(const PlotOptions& options) {
   }
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 struct PlotOptions {
   std::string name = "all";
@@ -17,4 +18,4 @@ std::vector<std::string> plotWords();
 /// `wetcloth plot`.
 void makePlots(const PlotOptions& options);
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/plot/PlotFiles.h"
 
 #include "command/cli/Errors.h"
@@ -7,7 +8,7 @@
 #include <random>
 #include <system_error>
 
-namespace runner {
+namespace command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,4 +58,4 @@ void PlotFiles::publish(const std::string& name) const {
   if (failed) throw notWritten(m_directory / name);
 }
 
-}  // namespace runner
+}  // namespace command

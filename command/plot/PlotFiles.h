@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/plot/Plot.h"
@@ -5,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace runner {
+namespace command {
 
 /// Writes plots into a directory. Files are made in a directory aside and then renamed, so that none is ever seen
 /// half-written; what is aside goes with the object.
@@ -34,4 +35,4 @@ class PlotFiles {
   bool m_hasPictures = true;
 };
 
-}  // namespace runner
+}  // namespace command

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Zlib
 #include "command/plot/Plots.h"
 
-namespace runner {
+namespace command {
 
 const std::vector<std::pair<std::string, MakePlots>>& plotNames() {
   static const std::vector<std::pair<std::string, MakePlots>> names{{"mass", massPlots},
@@ -11,4 +12,4 @@ const std::vector<std::pair<std::string, MakePlots>>& plotNames() {
   return names;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/plot/Plot.h"
@@ -7,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// Told how far a plot's runs are, [0, 1].
 using PlotProgress = std::function<void(double fraction)>;
@@ -41,4 +42,4 @@ inline const char* const purple = "#8e6bbf";
 
 }  // namespace plot_colours
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/plot/Plots.h"
 #include "command/scene/BulletWorld.h"
 
@@ -5,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace runner {
+namespace command {
 namespace {
 
 using Spring = wetcloth::ClothPatch::Spring;
@@ -83,4 +84,4 @@ std::vector<Plot> springsPlots(const PlotProgress& progress) {
   return {plot};
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/plot/Plots.h"
 #include "command/scene/BulletWorld.h"
 
@@ -6,7 +7,7 @@
 #include <iterator>
 #include <memory>
 
-namespace runner {
+namespace command {
 namespace {
 
 constexpr double step = 0.5;         // [s]
@@ -182,4 +183,4 @@ std::vector<Plot> wickingPlots(const PlotProgress& progress) {
   return plots;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #include "command/render/DrawnPictures.h"
 
 #include "command/pictures/Unavailable.h"
 
 #ifndef WETCLOTH_HAS_RENDERER
 
-namespace runner {
+namespace command {
 namespace {
 
 [[noreturn]] void refuse() {
@@ -20,7 +21,7 @@ void requireFilm(int, int) { refuse(); }
 RenderResult drawPng(const RenderJob&) { refuse(); }
 RenderResult drawFilm(const RenderJob&) { refuse(); }
 
-}  // namespace runner
+}  // namespace command
 
 #else
 
@@ -42,7 +43,7 @@ RenderResult drawFilm(const RenderJob&) { refuse(); }
 #include <numeric>
 #include <utility>
 
-namespace runner {
+namespace command {
 namespace {
 
 using pictures::Frame;
@@ -171,6 +172,6 @@ RenderResult drawFilm(const RenderJob& job) {
   return drawing.result(job.width, job.height);
 }
 
-}  // namespace runner
+}  // namespace command
 
 #endif

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/render/RenderJob.h"
 
-namespace runner {
+namespace command {
 
 // All throw what the classes of pictures throw that they are made with: pictures::Unavailable when something is not
 // installed, std::runtime_error when it fails.
@@ -16,4 +17,4 @@ RenderResult drawPng(const RenderJob& job);
 /// A film of all frames; job.path ends in .mp4, .webm or .gif.
 RenderResult drawFilm(const RenderJob& job);
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/render/ExportCommand.h"
 
 #include "command/cli/Errors.h"
@@ -16,7 +17,7 @@
 #include <filesystem>
 #include <functional>
 
-namespace runner {
+namespace command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -127,4 +128,4 @@ void exportScene(const ExportOptions& options, char** arguments) {
               options.framesPerSecond, options.out.c_str());
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/SceneOptions.h"
@@ -5,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 struct ExportOptions : SceneOptions {
   std::string format;
@@ -22,4 +23,4 @@ std::string exportFormatsExplained();
 /// `wetcloth export`. @param arguments of the program, for its sibling of the other precision
 void exportScene(const ExportOptions& options, char** arguments);
 
-}  // namespace runner
+}  // namespace command

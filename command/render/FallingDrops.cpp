@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #include "command/render/FallingDrops.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace runner {
+namespace command {
 namespace {
 
 constexpr double longestFall = 3;  // [s], 44 m: nothing that a picture shows is so far down
@@ -58,4 +59,4 @@ bool FallingDrops::hasLanded(const Fall& fall, double time) const {
   });
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/Scene.h"
@@ -6,7 +7,7 @@
 
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// Drops that have fallen from a scene's cloths, on their way to the ground or to the water: in a vacuum, for the
 /// second or less that it takes.
@@ -40,4 +41,4 @@ class FallingDrops {
   std::vector<Fall> m_falls;
 };
 
-}  // namespace runner
+}  // namespace command

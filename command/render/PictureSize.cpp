@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #include "command/render/PictureSize.h"
 
 #include "command/cli/Errors.h"
 
 #include <cstdio>
 
-namespace runner {
+namespace command {
 
 PictureSize readSize(const std::string& text, bool evenOnly) {
   constexpr long least = 16;
@@ -21,4 +22,4 @@ PictureSize readSize(const std::string& text, bool evenOnly) {
                    (evenOnly ? "even and " : "") + "from 16 to 8192 pixels");
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <string>
 
-namespace runner {
+namespace command {
 
 struct PictureSize {
   int width = 0;   ///< [pixels]
@@ -13,4 +14,4 @@ struct PictureSize {
 /// be even and are not.
 PictureSize readSize(const std::string& text, bool evenOnly);
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/render/RecordRun.h"
 
 #include "command/cli/Errors.h"
@@ -12,7 +13,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace runner {
+namespace command {
 namespace {
 
 using pictures::ClothState;
@@ -167,4 +168,4 @@ pictures::Recording recordRun(const Scene& scene, double framesPerSecond) {
   return recordRun(scene, times);
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/SceneWorld.h"
@@ -6,7 +7,7 @@
 
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// Runs a scene from its start to its end and keeps what pictures and files need, with progress on standard error.
 /// A frame that falls between two steps is mixed of both. Series that are zero throughout, or the same as another, are
@@ -22,4 +23,4 @@ pictures::Recording recordRun(const Scene& scene, const std::vector<double>& tim
 /// @param framesPerSecond  of simulated time, > 0
 pictures::Recording recordRun(const Scene& scene, double framesPerSecond);
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/render/Recorder.h"
 
 #include "command/run/ScenePainter.h"
@@ -10,7 +11,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace runner {
+namespace command {
 namespace {
 
 using pictures::ClothShape;
@@ -169,4 +170,4 @@ void Recorder::take(const SceneWorld& world, double time, pictures::Frame& frame
   }
 }
 
-}  // namespace runner
+}  // namespace command

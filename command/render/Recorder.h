@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/SceneWorld.h"
@@ -6,7 +7,7 @@
 
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// Tells what pictures need to know of a world that runs, in the plain numbers of pictures::Recording.
 class Recorder {
@@ -27,4 +28,4 @@ class Recorder {
   std::vector<std::vector<float>> m_restLengths;  // of each cloth's links [m]
 };
 
-}  // namespace runner
+}  // namespace command

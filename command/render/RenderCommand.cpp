@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/render/RenderCommand.h"
 
 #include "command/cli/Errors.h"
@@ -19,7 +20,7 @@
 #include <filesystem>
 #include <utility>
 
-namespace runner {
+namespace command {
 namespace {
 
 using pictures::Colouring;
@@ -212,4 +213,4 @@ void renderScene(const RenderOptions& options, char** arguments) {
   if (!json.ownsStandardOutput()) printSummary(options, job, result);
 }
 
-}  // namespace runner
+}  // namespace command

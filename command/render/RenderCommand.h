@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/SceneOptions.h"
@@ -6,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 struct RenderOptions : SceneOptions {
   std::string out;   ///< file; its suffix chooses what is made
@@ -30,4 +31,4 @@ std::vector<std::string> renderSuffixes();
 /// `wetcloth render`. @param arguments of the program, for its sibling of the other precision
 void renderScene(const RenderOptions& options, char** arguments);
 
-}  // namespace runner
+}  // namespace command

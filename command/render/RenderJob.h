@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/pictures/Colouring.h"
@@ -6,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// A run to be compared with others in one picture.
 struct Panel {
@@ -32,4 +33,4 @@ struct RenderResult {
   std::string renderer;  ///< empty: nothing was drawn
 };
 
-}  // namespace runner
+}  // namespace command

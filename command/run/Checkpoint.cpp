@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/run/Checkpoint.h"
 
 #include "command/cli/Errors.h"
@@ -12,7 +13,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-namespace runner {
+namespace command {
 namespace {
 
 // Then follow a hash of all that comes after the line, and its length.
@@ -118,4 +119,4 @@ Checkpoint readCheckpoint(const std::string& path, const nlohmann::ordered_json&
   }
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/run/RunCommand.h"
@@ -6,12 +7,12 @@
 
 #include <string>
 
-namespace runner {
+namespace command {
 
 /// A run that was left before its end, in a file: whose run it is, how far it is, and the state of its world.
 struct Checkpoint {
   nlohmann::ordered_json run;       ///< what must be the same to go on: scene, precision, quality, number of steps
-  nlohmann::ordered_json progress;  ///< of the runner
+  nlohmann::ordered_json progress;  ///< of the run
   std::string state;                ///< of the world, as SceneWorld::save() writes it
 };
 
@@ -27,4 +28,4 @@ void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint);
 /// Throws InputError that names the file when it is no checkpoint, was damaged, or is one of another run.
 Checkpoint readCheckpoint(const std::string& path, const nlohmann::ordered_json& run);
 
-}  // namespace runner
+}  // namespace command

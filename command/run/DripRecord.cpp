@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #include "command/run/DripRecord.h"
 
 #include <cstddef>
 #include <cstdio>
 
-namespace runner {
+namespace command {
 namespace {
 
 double grams(double kilograms) { return 1e3 * kilograms; }
@@ -54,4 +55,4 @@ std::string DripRecord::line() const {
   return text;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/SceneWorld.h"
@@ -7,7 +8,7 @@
 #include <array>
 #include <string>
 
-namespace runner {
+namespace command {
 
 /// How a run's cloths drip in the course of time, those that have the effect.
 class DripRecord {
@@ -38,4 +39,4 @@ class DripRecord {
   std::array<double, 10> m_massByTenth{};
 };
 
-}  // namespace runner
+}  // namespace command

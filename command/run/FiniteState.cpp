@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #include "command/run/FiniteState.h"
 
 #include "command/cli/Errors.h"
 
 #include <cstdio>
 
-namespace runner {
+namespace command {
 
 void requireFinite(const SceneWorld& world, int step) {
   if (world.isFinite()) return;
@@ -14,4 +15,4 @@ void requireFinite(const SceneWorld& world, int step) {
   throw RunError(world.scene().file + ": " + when + "; try more substeps or a smaller step_s");
 }
 
-}  // namespace runner
+}  // namespace command

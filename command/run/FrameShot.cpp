@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #include "command/run/FrameShot.h"
 
 #include "command/run/Saturation.h"
 
-namespace runner {
+namespace command {
 
 FrameShot takeShot(const SceneWorld& world, double time) {
   FrameShot shot;
@@ -20,4 +21,4 @@ FrameShot takeShot(const SceneWorld& world, double time) {
   return shot;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/SceneWorld.h"
 
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// What a picture needs to know of one moment of a run.
 struct FrameShot {
@@ -21,4 +22,4 @@ struct FrameShot {
 
 FrameShot takeShot(const SceneWorld& world, double time);
 
-}  // namespace runner
+}  // namespace command

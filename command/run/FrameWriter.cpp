@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/run/FrameWriter.h"
 
 #include "command/cli/Errors.h"
@@ -10,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-namespace runner {
+namespace command {
 namespace {
 
 void requireWritable(const std::string& directory) {
@@ -57,4 +58,4 @@ void FrameWriter::write(const SceneWorld& world) const {
   }
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/run/FrameShot.h"
@@ -5,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// Pictures of a run, evenly spaced from its first state to its last: frame_0000.svg and so on. They are kept as
 /// positions until the end, because one camera has to see them all.
@@ -30,4 +31,4 @@ class FrameWriter {
   std::vector<FrameShot> m_shots;
 };
 
-}  // namespace runner
+}  // namespace command

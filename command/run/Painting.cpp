@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/run/Painting.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace runner {
+namespace command {
 namespace {
 
 double sRgb(double linear) {
@@ -82,4 +83,4 @@ std::string Painting::svg() {
   return text + "</g>\n";
 }
 
-}  // namespace runner
+}  // namespace command

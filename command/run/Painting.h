@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/Camera.h"
@@ -7,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// Light of the pictures: a lamp above and beside the camera, and the sky.
 struct Light {
@@ -49,4 +50,4 @@ class Painting {
 /// Corners as the data of an SVG path.
 std::string pathData(const std::vector<PicturePoint>& corners);
 
-}  // namespace runner
+}  // namespace command

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #include "command/run/ProcessorTime.h"
 
 #include <chrono>
 #include <ctime>
 
-namespace runner {
+namespace command {
 
 double processorTime() {
 #ifdef CLOCK_THREAD_CPUTIME_ID
@@ -15,4 +16,4 @@ double processorTime() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-}  // namespace runner
+}  // namespace command

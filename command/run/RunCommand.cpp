@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/run/RunCommand.h"
 
 #include "command/cli/Errors.h"
@@ -19,7 +20,7 @@
 #include <optional>
 #include <sstream>
 
-namespace runner {
+namespace command {
 namespace {
 
 double secondsOf(SceneWorld& world) {
@@ -162,4 +163,4 @@ void runScene(const RunOptions& options, char** arguments) {
   if (frames.isOn()) std::printf("%-15s%d pictures in %s\n", "frames", frames.count(), options.frames.c_str());
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/SceneOptions.h"
@@ -5,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace runner {
+namespace command {
 
 struct RunOptions : SceneOptions {
   std::string frames;  ///< directory; empty: no pictures
@@ -20,4 +21,4 @@ struct RunOptions : SceneOptions {
 /// `wetcloth run`. @param arguments of the program, for its sibling of the other precision
 void runScene(const RunOptions& options, char** arguments);
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/run/RunReport.h"
 
 #include "command/cli/NearestWord.h"
@@ -8,7 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace runner {
+namespace command {
 namespace {
 
 // They have all looked at the same time.
@@ -176,4 +177,4 @@ std::string RunReport::summary() const {
   return text + steppingLine() + auditLine();
 }
 
-}  // namespace runner
+}  // namespace command

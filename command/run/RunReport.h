@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/run/DripRecord.h"
@@ -11,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 struct RunTimes {
   int steps = 0;
@@ -55,4 +56,4 @@ class RunReport {
   double m_maxStretch = 0;
 };
 
-}  // namespace runner
+}  // namespace command

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #include "command/run/RunSeries.h"
 
 #include "command/run/Saturation.h"
 
 #include <algorithm>
 
-namespace runner {
+namespace command {
 namespace {
 
 wetcloth::Ledger ledgerOf(const SceneWorld& world) {
@@ -67,4 +68,4 @@ std::vector<pictures::Series> runSeries() {
           {"largest stretch", "1", {}}};
 }
 
-}  // namespace runner
+}  // namespace command

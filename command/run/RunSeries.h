@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/SceneWorld.h"
@@ -6,7 +7,7 @@
 
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// What a scene's cloths come to at one moment, one number for each of runSeries(). The speeds and stretches are
 /// taken from the frame of this moment.
@@ -15,4 +16,4 @@ std::vector<double> measureRun(const SceneWorld& world, const pictures::Frame& f
 /// The names and units of these numbers, without values.
 std::vector<pictures::Series> runSeries();
 
-}  // namespace runner
+}  // namespace command

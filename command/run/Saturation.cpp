@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #include "command/run/Saturation.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace runner {
+namespace command {
 
 Saturation saturationOf(const SceneWorld& world) {
   if (world.cloths().empty()) return {};
@@ -22,4 +23,4 @@ Saturation saturationOf(const SceneWorld& world) {
   return saturation;
 }
 
-}  // namespace runner
+}  // namespace command

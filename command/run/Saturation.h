@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/SceneWorld.h"
 
-namespace runner {
+namespace command {
 
 /// The saturation of all nodes of a scene.
 struct Saturation {
@@ -13,4 +14,4 @@ struct Saturation {
 
 Saturation saturationOf(const SceneWorld& world);
 
-}  // namespace runner
+}  // namespace command

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #include "command/run/ScenePainter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-namespace runner {
+namespace command {
 namespace {
 
 const wetcloth::Colour colliderColour{0.50, 0.42, 0.33};
@@ -285,4 +286,4 @@ std::vector<btVector3> outlineOf(const Collider& collider) {
   return points;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/run/FrameShot.h"
@@ -7,7 +8,7 @@
 #include <array>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// Node numbers at the corners of each face.
 std::vector<std::array<int, 3>> facesOf(const btSoftBody& body);
@@ -31,4 +32,4 @@ std::vector<std::vector<btVector3>> surfaceOf(const Collider& collider);
 /// Points that stand for a collider when the camera is fitted.
 std::vector<btVector3> outlineOf(const Collider& collider);
 
-}  // namespace runner
+}  // namespace command

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #include "command/run/StateHash.h"
 
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 
-namespace runner {
+namespace command {
 namespace {
 
 class Fnv1a {
@@ -44,4 +45,4 @@ std::string stateHash(const SceneWorld& world) {
   return text;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/run/SvgFrame.h"
 
 #include "command/run/Painting.h"
@@ -8,7 +9,7 @@
 #include <cstddef>
 #include <cstdio>
 
-namespace runner {
+namespace command {
 namespace {
 
 /// The plane that is the ground of the picture: a level one that the camera is above.
@@ -176,4 +177,4 @@ std::string svgFrame(const SceneWorld& world, const Camera& camera, const FrameS
   return svg + painting.svg() + svgCaption(scene, shot) + "</svg>\n";
 }
 
-}  // namespace runner
+}  // namespace command

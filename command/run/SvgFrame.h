@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/run/FrameShot.h"
@@ -7,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// The camera of a scene, fitted to everything that is seen in any of the shots.
 Camera fitCamera(const Scene& scene, const std::vector<FrameShot>& shots);
@@ -17,4 +18,4 @@ Camera fitCamera(const Scene& scene, const std::vector<FrameShot>& shots);
 /// @param world the scene's world, for its faces and pins
 std::string svgFrame(const SceneWorld& world, const Camera& camera, const FrameShot& shot);
 
-}  // namespace runner
+}  // namespace command

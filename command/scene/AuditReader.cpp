@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/EffectReaders.h"
 
 #include "command/scene/ReadParameters.h"
 
-namespace runner {
+namespace command {
 
 using wetcloth::CollisionAudit;
 
@@ -18,4 +19,4 @@ AddEffect readCollisionAudit(JsonCursor cursor, const EffectContext&) {
   return addEffect<CollisionAudit>(parameters);
 }
 
-}  // namespace runner
+}  // namespace command

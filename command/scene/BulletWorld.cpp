@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/BulletWorld.h"
 
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
@@ -14,7 +15,7 @@
 
 #include <utility>
 
-namespace runner {
+namespace command {
 
 BulletWorld::BulletWorld(const Settings& settings)
     : m_settings(settings),
@@ -108,4 +109,4 @@ const btCollisionObject& BulletWorld::addStatic(std::unique_ptr<btCollisionShape
   return *m_rigidBodies.back();
 }
 
-}  // namespace runner
+}  // namespace command

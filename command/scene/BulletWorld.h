@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/Scene.h"
@@ -12,7 +13,7 @@ class btDeformableBodySolver;
 class btDeformableLagrangianForce;
 class btMultiBodyConstraintSolver;
 
-namespace runner {
+namespace command {
 
 /// One of Bullet's three worlds with soft bodies, and all that lives in it: nothing to delete by hand, in no order.
 class BulletWorld {
@@ -60,4 +61,4 @@ class BulletWorld {
   std::vector<std::unique_ptr<btSoftBody>> m_softBodies;
 };
 
-}  // namespace runner
+}  // namespace command

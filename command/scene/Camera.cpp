@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/Camera.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace runner {
+namespace command {
 namespace {
 
 constexpr double marginAtEdges = 0.09;  // of the picture's width and height, on each side
@@ -70,4 +71,4 @@ PicturePoint Camera::project(const btVector3& point) const {
           0.5 * height - scale * static_cast<double>(m_up.dot(offset)), depth};
 }
 
-}  // namespace runner
+}  // namespace command

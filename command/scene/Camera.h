@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <LinearMath/btVector3.h>
 
 #include <vector>
 
-namespace runner {
+namespace command {
 
 struct PicturePoint {
   double x = 0;      ///< pixels, to the right
@@ -40,4 +41,4 @@ class Camera {
   double m_pixelsPerTangent;
 };
 
-}  // namespace runner
+}  // namespace command

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/DryScene.h"
 
 #include <algorithm>
 #include <array>
 #include <string_view>
 
-namespace runner {
+namespace command {
 namespace {
 
 constexpr std::array<std::string_view, 9> waterEffects{
@@ -25,4 +26,4 @@ Scene dryScene(const Scene& scene) {
   return dry;
 }
 
-}  // namespace runner
+}  // namespace command

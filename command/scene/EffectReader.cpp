@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/EffectReader.h"
 
 #include "command/scene/EffectReaders.h"
 
-namespace runner {
+namespace command {
 namespace {
 
 struct EffectKey {
@@ -40,4 +41,4 @@ std::vector<EffectScene> readEffects(JsonCursor cursor, const EffectContext& con
   return effects;
 }
 
-}  // namespace runner
+}  // namespace command

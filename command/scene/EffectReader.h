@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/JsonCursor.h"
@@ -5,7 +6,7 @@
 
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// What the objects of a cloth's effects may refer to; read before them.
 struct EffectContext {
@@ -16,4 +17,4 @@ struct EffectContext {
 /// Reads a cloth's "effects": only the named ones are there, in the order in which they are to be added.
 std::vector<EffectScene> readEffects(JsonCursor cursor, const EffectContext& context);
 
-}  // namespace runner
+}  // namespace command

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/EffectReader.h"
 
-namespace runner {
+namespace command {
 
 // One for each effect: reads its object in a scene.
 AddEffect readAbsorption(JsonCursor cursor, const EffectContext& context);
@@ -23,4 +24,4 @@ AddEffect readHookeSprings(JsonCursor cursor, const EffectContext& context);
 AddEffect readWetFriction(JsonCursor cursor, const EffectContext& context);
 AddEffect readCollisionAudit(JsonCursor cursor, const EffectContext& context);
 
-}  // namespace runner
+}  // namespace command

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/EffectReaders.h"
 
 #include "command/scene/ReadParameters.h"
 
-namespace runner {
+namespace command {
 
 using wetcloth::Cling;
 using wetcloth::WaterDrag;
@@ -54,4 +55,4 @@ AddEffect readCling(JsonCursor cursor, const EffectContext&) {
   return addEffect<Cling>(parameters);
 }
 
-}  // namespace runner
+}  // namespace command

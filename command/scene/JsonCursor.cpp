@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/JsonCursor.h"
 
 #include "command/cli/Errors.h"
@@ -9,7 +10,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace runner {
+namespace command {
 namespace {
 
 std::string escapedKey(const std::string& key) {
@@ -173,4 +174,4 @@ void JsonCursor::complain(const std::string& complaint) const {
   throw InputError(onOneLine(m_file + ": " + where + " = " + shown(*m_value) + ": " + complaint));
 }
 
-}  // namespace runner
+}  // namespace command

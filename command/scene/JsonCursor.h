@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/SceneKeys.h"
@@ -10,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 using Json = nlohmann::json;
 
@@ -88,4 +89,4 @@ class JsonCursor {
   const KeyTable* m_keys = nullptr;
 };
 
-}  // namespace runner
+}  // namespace command

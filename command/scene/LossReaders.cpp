@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/EffectReaders.h"
 
 #include "command/scene/ReadParameters.h"
 
-namespace runner {
+namespace command {
 
 using wetcloth::Dripping;
 using wetcloth::Drying;
@@ -31,4 +32,4 @@ AddEffect readDrying(JsonCursor cursor, const EffectContext& context) {
   return addEffect<Drying>(parameters);
 }
 
-}  // namespace runner
+}  // namespace command

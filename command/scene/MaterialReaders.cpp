@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/EffectReaders.h"
 
 #include "command/scene/ReadParameters.h"
 
-namespace runner {
+namespace command {
 
 using wetcloth::HookeSprings;
 using wetcloth::Swelling;
@@ -45,4 +46,4 @@ AddEffect readWetFriction(JsonCursor cursor, const EffectContext&) {
   return addEffect<WetFriction>(parameters);
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/MeasuredFront.h"
 
 #include "Measured.h"
@@ -7,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-namespace runner {
+namespace command {
 namespace {
 
 std::string elasticityOf(const Scene& scene) {
@@ -126,4 +127,4 @@ void apply(const SteppingChoice& choice, Scene& scene) {
   if (choice.iterations > 0) scene.iterations = choice.iterations;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/Scene.h"
@@ -7,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// What `wetcloth accuracy` measured of one way to step, as it is kept in measured.json.
 struct MeasuredPoint {
@@ -61,4 +62,4 @@ SteppingChoice steppingWithin(const Scene& scene, double error);
 /// Steps the scene in that way: as many substeps as its step needs.
 void apply(const SteppingChoice& choice, Scene& scene);
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/MeshBody.h"
 
 #include <BulletSoftBody/btSoftBodyHelpers.h>
@@ -8,7 +9,7 @@
 #include <set>
 #include <utility>
 
-namespace runner {
+namespace command {
 namespace {
 
 std::vector<btScalar> nodeMasses(const TriangleMesh& mesh, double arealDensity) {
@@ -57,4 +58,4 @@ std::unique_ptr<btSoftBody> makeMeshBody(const TriangleMesh& mesh, double arealD
   return body;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/Motion.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-namespace runner {
+namespace command {
 
 Motion::Motion(btSoftBody& body, MotionScene scene) : m_body(body), m_scene(std::move(scene)) {
   for (int i = 0; i < body.m_nodes.size(); ++i) {
@@ -28,4 +29,4 @@ btVector3 Motion::offsetAt(double time) const {
   return m_scene.offsets[next - 1] + (m_scene.offsets[next] - m_scene.offsets[next - 1]) * btScalar(share);
 }
 
-}  // namespace runner
+}  // namespace command

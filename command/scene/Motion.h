@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/Scene.h"
 
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// Moves the pinned nodes of a body, all by the same offset.
 class Motion {
@@ -23,4 +24,4 @@ class Motion {
   std::vector<btVector3> m_starts;
 };
 
-}  // namespace runner
+}  // namespace command

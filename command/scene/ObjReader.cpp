@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/ObjReader.h"
 
 #include "command/cli/TextFile.h"
@@ -8,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace runner {
+namespace command {
 namespace {
 
 [[noreturn]] void rejectLine(int line, const std::string& complaint) {
@@ -92,4 +93,4 @@ TriangleMesh readObj(const std::string& file) {
   return mesh;
 }
 
-}  // namespace runner
+}  // namespace command

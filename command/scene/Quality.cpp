@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/Quality.h"
 
-namespace runner {
+namespace command {
 
 std::string qualityOf(const Scene& scene) { return scene.quality.empty() ? "scene" : scene.quality; }
 
@@ -22,4 +23,4 @@ double allowedError(Quality quality) {
   return 0;
 }
 
-}  // namespace runner
+}  // namespace command

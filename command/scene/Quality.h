@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/Scene.h"
@@ -6,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// How a scene's stepping was chosen, for people: the name of a quality, or "scene" where it decides by itself.
 std::string qualityOf(const Scene& scene);
@@ -21,4 +22,4 @@ const std::vector<std::pair<std::string, Quality>>& qualityNames();
 /// stepping that was measured.
 double allowedError(Quality quality);
 
-}  // namespace runner
+}  // namespace command

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/ReadParameters.h"
 
 #include <cmath>
 
-namespace runner {
+namespace command {
 namespace {
 
 /// Gusts that travel with the mean wind, as turbulence does that passes faster than it changes (Taylor 1938):
@@ -53,4 +54,4 @@ wetcloth::WindField readWindField(const JsonCursor& effect) {
   return readVector(effect.at("velocity_m_s"));
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/JsonCursor.h"
@@ -6,7 +7,7 @@
 #include <string>
 #include <utility>
 
-namespace runner {
+namespace command {
 
 inline btVector3 readVector(const JsonCursor& cursor, const Range& range = Range::finite()) {
   const std::array<double, 3> xyz = cursor.triple(range);
@@ -55,4 +56,4 @@ AddEffect addEffect(typename E::Parameters parameters) {
   };
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/Scene.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace runner {
+namespace command {
 namespace {
 
 template <class Value>
@@ -49,4 +50,4 @@ btVector3 Scene::up() const { return gravity.length() > 0 ? btVector3(-gravity.n
 std::string nameOf(WorldKind world) { return nameIn(worldNames(), world); }
 std::string nameOf(Precision precision) { return nameIn(precisionNames(), precision); }
 
-}  // namespace runner
+}  // namespace command

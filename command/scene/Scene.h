@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "bullet_wetcloth/bullet_wetcloth.h"
@@ -11,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 enum class WorldKind { softRigid, softMultiBody, deformable };
 enum class Precision { float32, float64 };
@@ -143,4 +144,4 @@ struct Scene {
   btVector3 up() const;
 };
 
-}  // namespace runner
+}  // namespace command

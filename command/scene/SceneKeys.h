@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// The keys that one kind of object in a scene may have. The reader refuses all others, and a test holds the
 /// tables against the definitions of the same names in examples/scenes/scene.schema.json.
@@ -116,4 +117,4 @@ inline const std::vector<const KeyTable*> all{
     &plane,  &box,          &sphere,       &camera};
 
 }  // namespace keys
-}  // namespace runner
+}  // namespace command

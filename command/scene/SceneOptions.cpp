@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/SceneOptions.h"
 
 #include "command/cli/Errors.h"
@@ -8,7 +9,7 @@
 
 #include <cstdio>
 
-namespace runner {
+namespace command {
 namespace {
 
 void requireDuration(double duration) {
@@ -34,4 +35,4 @@ Scene readScene(const SceneOptions& options, char** arguments) {
   return scene;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/Scene.h"
@@ -5,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace runner {
+namespace command {
 
 /// Which scene, and what of it the command line decides.
 struct SceneOptions {
@@ -19,4 +20,4 @@ struct SceneOptions {
 /// InputError when the scene or its duration is not allowed.
 Scene readScene(const SceneOptions& options, char** arguments);
 
-}  // namespace runner
+}  // namespace command

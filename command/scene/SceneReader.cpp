@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/SceneReader.h"
 
 #include "command/cli/Errors.h"
@@ -12,7 +13,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-namespace runner {
+namespace command {
 namespace {
 
 using wetcloth::ClothPatch;
@@ -302,4 +303,4 @@ Scene readScene(const std::string& file) {
   return scene;
 }
 
-}  // namespace runner
+}  // namespace command

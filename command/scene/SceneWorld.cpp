@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/SceneWorld.h"
 
 #include "command/cli/Errors.h"
@@ -12,7 +13,7 @@
 #include <string>
 #include <utility>
 
-namespace runner {
+namespace command {
 namespace {
 
 BulletWorld::Settings settingsOf(const Scene& scene) {
@@ -158,10 +159,10 @@ void SceneWorld::finish() {
 bool SceneWorld::isFinite() const {
   for (const btSoftBody* body : m_bodies) {
     for (int i = 0; i < body->m_nodes.size(); ++i) {
-      if (!runner::isFinite(body->m_nodes[i].m_x) || !runner::isFinite(body->m_nodes[i].m_v)) return false;
+      if (!command::isFinite(body->m_nodes[i].m_x) || !command::isFinite(body->m_nodes[i].m_v)) return false;
     }
   }
   return true;
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/render/FallingDrops.h"
@@ -11,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// A scene, ready to run.
 class SceneWorld {
@@ -71,4 +72,4 @@ class SceneWorld {
   int m_steps = 0;
 };
 
-}  // namespace runner
+}  // namespace command

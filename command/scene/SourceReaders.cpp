@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/EffectReaders.h"
 
 #include "command/scene/ReadParameters.h"
@@ -7,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace runner {
+namespace command {
 
 using wetcloth::Absorption;
 using wetcloth::ContactWetting;
@@ -126,4 +127,4 @@ AddEffect readContactWetting(JsonCursor cursor, const EffectContext& context) {
   };
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/EffectReaders.h"
 
 #include "command/scene/ReadParameters.h"
 
-namespace runner {
+namespace command {
 
 using wetcloth::Diffusion;
 using wetcloth::Seepage;
@@ -31,4 +32,4 @@ AddEffect readSeepage(JsonCursor cursor, const EffectContext&) {
   return addEffect<Seepage>(parameters);
 }
 
-}  // namespace runner
+}  // namespace command

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/Twist.h"
 
 #include <algorithm>
 
-namespace runner {
+namespace command {
 namespace {
 
 using wetcloth::ClothPatch;
@@ -34,4 +35,4 @@ void Twist::moveTo(double time) {
   }
 }
 
-}  // namespace runner
+}  // namespace command

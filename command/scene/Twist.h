@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/Scene.h"
 
 #include <vector>
 
-namespace runner {
+namespace command {
 
 /// Turns the nodes of a patch's edge about the line through the middles of that edge and the opposite one.
 class Twist {
@@ -23,4 +24,4 @@ class Twist {
   btVector3 m_axis;
 };
 
-}  // namespace runner
+}  // namespace command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/scene/ValidateCommand.h"
 
 #include "command/scene/SceneReader.h"
@@ -5,7 +6,7 @@
 
 #include <cstdio>
 
-namespace runner {
+namespace command {
 
 void validateScenes(const std::vector<std::string>& files) {
   const std::string schemaEnding = ".schema.json";
@@ -22,4 +23,4 @@ void validateScenes(const std::vector<std::string>& files) {
   }
 }
 
-}  // namespace runner
+}  // namespace command

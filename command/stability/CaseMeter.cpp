@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/stability/CaseMeter.h"
 
 #include <algorithm>

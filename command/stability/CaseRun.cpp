@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/stability/CaseRun.h"
 
 #include "command/stability/CaseScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/stability/CaseScene.h"
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
@@ -15,10 +16,10 @@
 namespace stability {
 namespace {
 
-runner::WorldKind kindOf(World world) {
-  if (world == World::softRigid) return runner::WorldKind::softRigid;
-  if (world == World::softMultiBody) return runner::WorldKind::softMultiBody;
-  return runner::WorldKind::deformable;
+command::WorldKind kindOf(World world) {
+  if (world == World::softRigid) return command::WorldKind::softRigid;
+  if (world == World::softMultiBody) return command::WorldKind::softMultiBody;
+  return command::WorldKind::deformable;
 }
 
 constexpr double kBendingShare = 0.01;  // of the stiffness of a link that bends
@@ -34,11 +35,11 @@ void makeHeavy(btSoftBody& body) {
 
 CaseScene::CaseScene(World world, Way way, double dt, const btVector3& gravity)
     : m_world(world), m_way(way), m_dt(dt), m_gravity(double(gravity.length())) {
-  runner::BulletWorld::Settings settings;
+  command::BulletWorld::Settings settings;
   settings.kind = kindOf(world);
   settings.gravity = gravity;
   settings.implicit = world == World::deformableImplicit;
-  m_bullet = std::make_unique<runner::BulletWorld>(settings);
+  m_bullet = std::make_unique<command::BulletWorld>(settings);
   if (!isOurs()) return;
   m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(bullet());
   m_wetWorld->setLog({});
@@ -50,7 +51,7 @@ CaseScene::~CaseScene() {
 }
 
 btSoftBody& CaseScene::add(std::unique_ptr<btSoftBody> body, double stiffness) {
-  runner::DeformableSprings springs;
+  command::DeformableSprings springs;
   springs.stiffness = stiffness;
   springs.bendingStiffness = kBendingShare * stiffness;
   btSoftBody& added = m_bullet->add(std::move(body), isOurs() ? nullptr : &springs);

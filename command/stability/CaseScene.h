@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/stability/World.h"
@@ -96,7 +97,7 @@ class CaseScene {
   double m_gravity;
   double m_duration = 0;
   int m_steps = 0;
-  std::unique_ptr<runner::BulletWorld> m_bullet;
+  std::unique_ptr<command::BulletWorld> m_bullet;
   std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
   std::vector<std::unique_ptr<btRigidBody>> m_rigidBodies;
   std::vector<Cloth> m_cloths;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/stability/Cases.h"
 
 #include <bullet_wetcloth/collision/ContinuousCheck.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/stability/MarkedSection.h"
 
 #include "command/cli/Errors.h"
@@ -12,15 +13,15 @@ MarkedSection::MarkedSection(std::string file, const std::string& name) : m_file
   std::ifstream stream(m_file, std::ios::binary);
   std::ostringstream read;
   read << stream.rdbuf();
-  if (!stream) throw runner::InputError(m_file + ": cannot be read");
+  if (!stream) throw command::InputError(m_file + ": cannot be read");
   const std::string text = read.str();
   const std::string first = "<!-- " + name + " -->\n";
   const std::string last = "<!-- end of " + name + " -->";
   const std::size_t begin = text.find(first);
   const std::size_t end = begin == std::string::npos ? begin : text.find(last, begin);
   if (end == std::string::npos) {
-    throw runner::InputError(m_file + ": must have the lines \"<!-- " + name + " -->\" and \"" + last +
-                             "\", between which the table is written");
+    throw command::InputError(m_file + ": must have the lines \"<!-- " + name + " -->\" and \"" + last +
+                              "\", between which the table is written");
   }
   m_before = text.substr(0, begin + first.size());
   m_after = text.substr(end);
@@ -30,7 +31,7 @@ void MarkedSection::write(const std::string& text) const {
   std::ofstream stream(m_file, std::ios::binary);
   stream << m_before << text << m_after;
   stream.close();
-  if (!stream) throw runner::RunError(m_file + ": cannot be written");
+  if (!stream) throw command::RunError(m_file + ": cannot be written");
 }
 
 }  // namespace stability

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include <string>
@@ -8,10 +9,10 @@ namespace stability {
 /// people write the rest.
 class MarkedSection {
  public:
-  /// Throws runner::InputError when the file cannot be read or has not both lines, in this order.
+  /// Throws command::InputError when the file cannot be read or has not both lines, in this order.
   MarkedSection(std::string file, const std::string& name);
 
-  /// Replaces what is between. Throws runner::RunError when the file cannot be written.
+  /// Replaces what is between. Throws command::RunError when the file cannot be written.
   void write(const std::string& text) const;
 
  private:

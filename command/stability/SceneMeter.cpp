@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/stability/SceneMeter.h"
 
 #include <algorithm>

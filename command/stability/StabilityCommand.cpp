@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/stability/StabilityCommand.h"
 
 #include "command/stability/MarkedSection.h"
@@ -38,14 +39,14 @@ std::optional<double> stepIn(const std::string& text) {
     step = divisor ? std::optional<double>(*step / *divisor) : std::nullopt;
   }
   if (step && *step >= smallestStep && *step <= largestStep) return step;
-  throw runner::InputError("wetcloth: --step = \"" + text + "\": must be in [0.0001, 1] s, as 0.01 or 1/100");
+  throw command::InputError("wetcloth: --step = \"" + text + "\": must be in [0.0001, 1] s, as 0.01 or 1/100");
 }
 
 Selection selectionOf(const StabilityOptions& options) {
   Selection selection;
   selection.name = options.name;
   selection.group = options.group;
-  if (!options.world.empty()) selection.world = runner::valueOf(stabilityWorlds(), options.world);
+  if (!options.world.empty()) selection.world = command::valueOf(stabilityWorlds(), options.world);
   selection.step = stepIn(options.step);
   selection.effort = options.isQuick ? Effort::quick : Effort::full;
   return selection;
@@ -57,20 +58,20 @@ void tryHardCases(const StabilityOptions& options, char** arguments) {
   const Selection selection = selectionOf(options);
   const std::vector<Combination> combinations = combinationsOf(selection);
   if (combinations.empty()) {
-    throw runner::InputError("wetcloth: no case is left by --case, --group, --world and --quick together");
+    throw command::InputError("wetcloth: no case is left by --case, --group, --world and --quick together");
   }
   if (!options.precision.empty()) {
-    runner::continueInPrecision(runner::valueOf(runner::precisionNames(), options.precision), "wetcloth: --precision",
-                                arguments);
+    command::continueInPrecision(command::valueOf(command::precisionNames(), options.precision),
+                                 "wetcloth: --precision", arguments);
   }
-  runner::JsonOutput output(options.json);
+  command::JsonOutput output(options.json);
   std::optional<MarkedSection> section;
   if (!options.markdown.empty()) {
-    section.emplace(options.markdown, "stability " + runner::nameOf(runner::ownPrecision));
+    section.emplace(options.markdown, "stability " + command::nameOf(command::ownPrecision));
   }
   std::vector<CaseResult> results;
   {
-    runner::Progress progress("trying " + std::to_string(combinations.size()) + " hard cases");
+    command::Progress progress("trying " + std::to_string(combinations.size()) + " hard cases");
     results = runCombinations(combinations, selection.effort, [&](double done) { progress.update(done); });
   }
   const StabilityReport report(std::move(results));
@@ -78,7 +79,7 @@ void tryHardCases(const StabilityOptions& options, char** arguments) {
   if (section) section->write(report.markdown());
   if (!output.ownsStandardOutput()) std::fputs(report.text().c_str(), stdout);
   if (report.count(CaseResult::Verdict::fails) > 0) {
-    throw runner::RunError("wetcloth: a bound does not hold, and plain Bullet holds it: " + report.failing());
+    throw command::RunError("wetcloth: a bound does not hold, and plain Bullet holds it: " + report.failing());
   }
 }
 

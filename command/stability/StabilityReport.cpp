@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/stability/StabilityReport.h"
 
 #include "command/stability/StabilityTable.h"
@@ -160,7 +161,7 @@ std::string StabilityReport::text() const {
   std::snprintf(line, sizeof line,
                 "\n%zu runs in %s: %d hold, %d fail, in %d Bullet itself is what fails.\nMargin: measured / allowed of "
                 "the bound that is nearest; up to 1 holds.\n",
-                m_results.size(), runner::nameOf(runner::ownPrecision).c_str(), count(Verdict::holds),
+                m_results.size(), command::nameOf(command::ownPrecision).c_str(), count(Verdict::holds),
                 count(Verdict::fails), count(Verdict::bulletFails));
   return text + line;
 }
@@ -172,7 +173,7 @@ Json StabilityReport::json() const {
                      {"group", result.hardCase->group},
                      {"about", result.hardCase->about},
                      {"world", nameOf(result.world)},
-                     {"precision", runner::nameOf(runner::ownPrecision)},
+                     {"precision", command::nameOf(command::ownPrecision)},
                      {"step", result.step},
                      {"verdict", nameOf(result.verdict())},
                      {"margin", marginJson(result.ours)},
@@ -180,7 +181,7 @@ Json StabilityReport::json() const {
                      {"plain_bullet", comparisonJson(result.plainBullet, "")},
                      {"obvious_way", comparisonJson(result.obviousWay, result.hardCase->obviousWay)}});
   }
-  return {{"precision", runner::nameOf(runner::ownPrecision)},
+  return {{"precision", command::nameOf(command::ownPrecision)},
           {"holds", count(Verdict::holds)},
           {"fails", count(Verdict::fails)},
           {"bullet_fails", count(Verdict::bulletFails)},
@@ -189,7 +190,7 @@ Json StabilityReport::json() const {
 
 std::string StabilityReport::markdown() const {
   const std::vector<double> steps = stepsOf(m_results);
-  std::string text = "\nCases in which every bound holds, " + runner::nameOf(runner::ownPrecision) + ":\n\n";
+  std::string text = "\nCases in which every bound holds, " + command::nameOf(command::ownPrecision) + ":\n\n";
   text += worldTable(m_results, steps);
   text +=
       "\nThe margin of each, measured / allowed of the nearest bound; `Bullet:` and a bound where Bullet alone fails, "

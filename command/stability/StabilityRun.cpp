@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/stability/StabilityRun.h"
 
 #include "command/stability/StabilityTable.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/stability/StabilityTable.h"
 
 #include "command/stability/Cases.h"

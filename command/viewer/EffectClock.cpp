@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/viewer/EffectClock.h"
 
 #include <algorithm>

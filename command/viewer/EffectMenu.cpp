@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/viewer/EffectMenu.h"
 
 #include "command/scene/ReadParameters.h"
@@ -7,12 +8,12 @@ namespace {
 
 template <class E>
 OfferedEffect offer(const char* key, typename E::Parameters parameters = {}) {
-  return {key, runner::addEffect<E>(std::move(parameters))};
+  return {key, command::addEffect<E>(std::move(parameters))};
 }
 
 }  // namespace
 
-std::vector<OfferedEffect> effectMenu(const runner::Scene& scene) {
+std::vector<OfferedEffect> effectMenu(const command::Scene& scene) {
   wetcloth::Rain::Parameters rain;
   rain.direction = -scene.up();
   return {offer<wetcloth::HookeSprings>("hooke_springs"),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/viewer/EffectSwitches.h"
 
 #include <algorithm>
@@ -12,42 +13,42 @@ using wetcloth::Effect;
 using wetcloth::Stage;
 using wetcloth::WetCloth;
 
-const runner::EffectScene* find(const runner::ClothScene& cloth, const std::string& key) {
-  for (const runner::EffectScene& effect : cloth.effects) {
+const command::EffectScene* find(const command::ClothScene& cloth, const std::string& key) {
+  for (const command::EffectScene& effect : cloth.effects) {
     if (effect.key == key) return &effect;
   }
   return nullptr;
 }
 
-bool isNamed(const runner::Scene& scene, const std::string& key) {
+bool isNamed(const command::Scene& scene, const std::string& key) {
   return std::any_of(scene.cloths.begin(), scene.cloths.end(),
-                     [&](const runner::ClothScene& cloth) { return cloth.hasEffect(key); });
+                     [&](const command::ClothScene& cloth) { return cloth.hasEffect(key); });
 }
 
 Effect& add(WetCloth& cloth, std::unique_ptr<Effect> effect) { return cloth.add(std::move(effect)); }
 
 }  // namespace
 
-EffectSwitches::EffectSwitches(const runner::Scene& scene)
-    : m_isDeformable(scene.world == runner::WorldKind::deformable), m_commit(m_clock.addPart()) {
+EffectSwitches::EffectSwitches(const command::Scene& scene)
+    : m_isDeformable(scene.world == command::WorldKind::deformable), m_commit(m_clock.addPart()) {
   for (const OfferedEffect& offered : effectMenu(scene)) {
     const bool named = isNamed(scene, offered.key);
     if (!named && !offered.byDefault) continue;
     m_switches.push_back({offered.key, named, named, false, ""});
     Row row{m_clock.addPart(), {}, {}};
-    for (const runner::ClothScene& cloth : scene.cloths) {
-      const runner::EffectScene* own = find(cloth, offered.key);
-      row.perCloth.push_back(own != nullptr ? own->addTo : named ? runner::AddEffect() : offered.byDefault);
+    for (const command::ClothScene& cloth : scene.cloths) {
+      const command::EffectScene* own = find(cloth, offered.key);
+      row.perCloth.push_back(own != nullptr ? own->addTo : named ? command::AddEffect() : offered.byDefault);
     }
     m_rows.push_back(std::move(row));
   }
 }
 
-void EffectSwitches::equip(runner::Scene& scene) {
+void EffectSwitches::equip(command::Scene& scene) {
   for (Row& row : m_rows) row.placed.clear();
   for (Switch& each : m_switches) each.waitsForReset = false;
   for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) {
-    std::vector<runner::EffectScene>& effects = scene.cloths[cloth].effects;
+    std::vector<command::EffectScene>& effects = scene.cloths[cloth].effects;
     effects = {beginning(Stage::sources), commitEnd()};
     for (std::size_t i = 0; i < m_rows.size(); ++i) {
       if (m_switches[i].isOn && m_rows[i].perCloth[cloth]) effects.push_back(effectScene(i, cloth));
@@ -59,27 +60,27 @@ void EffectSwitches::restore() {
   for (Switch& each : m_switches) each.isOn = each.isInScene;
 }
 
-runner::EffectScene EffectSwitches::effectScene(std::size_t index, std::size_t cloth) {
-  return {m_switches[index].key, [this, index, cloth](WetCloth& wet, const runner::Colliders& colliders) -> Effect& {
+command::EffectScene EffectSwitches::effectScene(std::size_t index, std::size_t cloth) {
+  return {m_switches[index].key, [this, index, cloth](WetCloth& wet, const command::Colliders& colliders) -> Effect& {
             return place(index, cloth, wet, colliders);
           }};
 }
 
-runner::EffectScene EffectSwitches::beginning(Stage stage) {
-  return {"", [this, stage](WetCloth& cloth, const runner::Colliders&) -> Effect& {
+command::EffectScene EffectSwitches::beginning(Stage stage) {
+  return {"", [this, stage](WetCloth& cloth, const command::Colliders&) -> Effect& {
             return add(cloth, m_clock.beginning(stage));
           }};
 }
 
 /// The first of the stage after it.
-runner::EffectScene EffectSwitches::commitEnd() {
-  return {"", [this](WetCloth& cloth, const runner::Colliders&) -> Effect& {
+command::EffectScene EffectSwitches::commitEnd() {
+  return {"", [this](WetCloth& cloth, const command::Colliders&) -> Effect& {
             return add(cloth, m_clock.endOf(m_commit, Stage::forces));
           }};
 }
 
 Effect& EffectSwitches::place(std::size_t index, std::size_t clothIndex, WetCloth& cloth,
-                              const runner::Colliders& colliders) {
+                              const command::Colliders& colliders) {
   Row& row = m_rows[index];
   const auto& addTo = row.perCloth[clothIndex];
   Effect* effect = &addTo(cloth, colliders);
@@ -104,7 +105,7 @@ void EffectSwitches::removeFrom(WetCloth& cloth, Row& row) {
                    row.placed.end());
 }
 
-void EffectSwitches::turn(std::size_t index, bool on, runner::SceneWorld& world) {
+void EffectSwitches::turn(std::size_t index, bool on, command::SceneWorld& world) {
   Switch& turned = m_switches.at(index);
   turned.refusal.clear();
   if (turned.isOn == on) return;

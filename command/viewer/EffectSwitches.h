@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/viewer/EffectClock.h"
@@ -23,13 +24,13 @@ class EffectSwitches {
     std::string refusal;         ///< why the library did not take it; empty: it did
   };
 
-  explicit EffectSwitches(const runner::Scene& scene);
+  explicit EffectSwitches(const command::Scene& scene);
   EffectSwitches(const EffectSwitches&) = delete;
   EffectSwitches& operator=(const EffectSwitches&) = delete;
 
   /// Gives a copy of the scene the effects that are on, so that its world tells us of them. The world must not outlive
   /// this.
-  void equip(runner::Scene& scene);
+  void equip(command::Scene& scene);
 
   const std::vector<Switch>& list() const { return m_switches; }
   /// As the scene has them, when it is next equipped.
@@ -42,7 +43,7 @@ class EffectSwitches {
   const EffectClock& clock() const { return m_clock; }
 
   /// Adds an effect to its cloths or removes it. When the library refuses it, it stays off and the switch says why.
-  void turn(std::size_t index, bool on, runner::SceneWorld& world);
+  void turn(std::size_t index, bool on, command::SceneWorld& world);
 
  private:
   /// What stands in a cloth for an effect: the effect and its laps.
@@ -52,16 +53,16 @@ class EffectSwitches {
   };
   struct Row {
     EffectClock::Part part;
-    std::vector<runner::AddEffect> perCloth;  // empty: not for this cloth
+    std::vector<command::AddEffect> perCloth;  // empty: not for this cloth
     std::vector<Placed> placed;
   };
 
   wetcloth::Effect& place(std::size_t index, std::size_t clothIndex, wetcloth::WetCloth& cloth,
-                          const runner::Colliders& colliders);
+                          const command::Colliders& colliders);
   void removeFrom(wetcloth::WetCloth& cloth, Row& row);
-  runner::EffectScene effectScene(std::size_t index, std::size_t cloth);
-  runner::EffectScene beginning(wetcloth::Stage stage);
-  runner::EffectScene commitEnd();
+  command::EffectScene effectScene(std::size_t index, std::size_t cloth);
+  command::EffectScene beginning(wetcloth::Stage stage);
+  command::EffectScene commitEnd();
 
   bool m_isDeformable;
   EffectClock m_clock;

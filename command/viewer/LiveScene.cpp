@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/viewer/LiveScene.h"
 
 #include "command/cli/Errors.h"
@@ -27,7 +28,7 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 }
 
 template <class E, class Action>
-void forEach(const runner::SceneWorld& world, Action action) {
+void forEach(const command::SceneWorld& world, Action action) {
   for (WetCloth* cloth : world.cloths()) {
     for (const auto& effect : cloth->effects()) {
       if (auto* found = dynamic_cast<E*>(effect.get())) action(*found, *cloth);
@@ -52,9 +53,9 @@ Grip::Push pushInPlainBullet(bool isDeformable) {
 
 }  // namespace
 
-LiveScene::LiveScene(runner::Scene scene) : m_original(std::move(scene)), m_effects(m_original), m_scene(m_original) {
+LiveScene::LiveScene(command::Scene scene) : m_original(std::move(scene)), m_effects(m_original), m_scene(m_original) {
   build();
-  m_recorder = std::make_unique<runner::Recorder>(*m_wet);
+  m_recorder = std::make_unique<command::Recorder>(*m_wet);
   note();
 }
 
@@ -119,7 +120,7 @@ void LiveScene::restore() {
 void LiveScene::buildAgain() {
   try {
     build();
-  } catch (const runner::InputError& refused) {
+  } catch (const command::InputError& refused) {
     forgetSettings();
     build();  // as it was built at first
     m_notice = refused.what();
@@ -138,13 +139,13 @@ void LiveScene::setTimeScale(double scale) {
   m_timeScale = scale;
 }
 
-runner::Scene LiveScene::equippedScene() {
-  runner::Scene scene = m_original;
+command::Scene LiveScene::equippedScene() {
+  command::Scene scene = m_original;
   scene.substeps = m_scene.substeps;
   scene.iterations = m_scene.iterations;
   m_effects.equip(scene);
   if (m_levers.fabric.empty()) return scene;
-  for (runner::ClothScene& cloth : scene.cloths) {
+  for (command::ClothScene& cloth : scene.cloths) {
     const wetcloth::Fabric own = cloth.fabric;
     cloth.fabric = wetcloth::Fabric::byName(m_levers.fabric);
     cloth.fabric.dryColour = own.dryColour;
@@ -156,13 +157,13 @@ runner::Scene LiveScene::equippedScene() {
 
 void LiveScene::build() {
   m_scene = equippedScene();
-  m_wet = std::make_unique<runner::SceneWorld>(m_scene);
+  m_wet = std::make_unique<command::SceneWorld>(m_scene);
   m_fabricInUse = m_levers.fabric;
   pullLevers();
 }
 
 void LiveScene::buildPlain() {
-  m_plain = std::make_unique<runner::SceneWorld>(m_scene, runner::SceneWorld::Kind::plainBullet);
+  m_plain = std::make_unique<command::SceneWorld>(m_scene, command::SceneWorld::Kind::plainBullet);
 }
 
 // --- effects --------------------------------------------------------------------------------------------------------
@@ -321,7 +322,7 @@ bool LiveScene::grab(const Ray& ray, Side side) {
   m_grippedSide = side;
   if (side == Side::plainBullet) {
     m_grip.emplace(*m_plain->bodies()[cloth], hit->node,
-                   pushInPlainBullet(m_scene.world == runner::WorldKind::deformable));
+                   pushInPlainBullet(m_scene.world == command::WorldKind::deformable));
     return true;
   }
   WetCloth* const wet = m_wet->cloths()[cloth];
@@ -337,7 +338,7 @@ void LiveScene::dragTo(const btVector3& goal) {
 // --- what there is to see -------------------------------------------------------------------------------------------
 
 const pictures::Frame& LiveScene::frame(Side side) {
-  const runner::SceneWorld& world = side == Side::plainBullet && m_plain ? *m_plain : *m_wet;
+  const command::SceneWorld& world = side == Side::plainBullet && m_plain ? *m_plain : *m_wet;
   pictures::Frame& frame = m_frames[side == Side::plainBullet ? 1 : 0];
   m_recorder->take(world, world.time(), frame);
   return frame;

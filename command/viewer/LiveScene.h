@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/viewer/EffectSwitches.h"
@@ -24,7 +25,7 @@ enum class Side { wet, plainBullet };
 class LiveScene {
  public:
   /// Throws InputError when the library refuses a cloth or an effect.
-  explicit LiveScene(runner::Scene scene);
+  explicit LiveScene(command::Scene scene);
 
   // --- time -------------------------------------------------------------------------------------------------
 
@@ -120,8 +121,8 @@ class LiveScene {
 
   // --- what there is to see ---------------------------------------------------------------------------------
 
-  const runner::Scene& scene() const { return m_scene; }
-  const runner::SceneWorld& world() const { return *m_wet; }
+  const command::Scene& scene() const { return m_scene; }
+  const command::SceneWorld& world() const { return *m_wet; }
   const pictures::Scenery& scenery() const { return m_recorder->scenery(); }
   const std::vector<pictures::ClothShape>& cloths() const { return m_recorder->cloths(); }
   /// As it is now. Plain Bullet's only while isCompared().
@@ -141,7 +142,7 @@ class LiveScene {
     std::string fabric;
   };
 
-  runner::Scene equippedScene();
+  command::Scene equippedScene();
   void build();
   void buildAgain();
   void buildPlain();
@@ -150,12 +151,12 @@ class LiveScene {
   void pull(Side side, btScalar dt);
   void note();
 
-  runner::Scene m_original;
+  command::Scene m_original;
   EffectSwitches m_effects;
-  runner::Scene m_scene;  // the one that runs; the worlds refer to it
-  std::unique_ptr<runner::SceneWorld> m_wet;
-  std::unique_ptr<runner::SceneWorld> m_plain;
-  std::unique_ptr<runner::Recorder> m_recorder;
+  command::Scene m_scene;  // the one that runs; the worlds refer to it
+  std::unique_ptr<command::SceneWorld> m_wet;
+  std::unique_ptr<command::SceneWorld> m_plain;
+  std::unique_ptr<command::Recorder> m_recorder;
   Levers m_levers;
   std::string m_fabricInUse;
   std::optional<Grip> m_grip;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/viewer/MouseHand.h"
 
 #include <imgui.h>

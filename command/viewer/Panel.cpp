@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/viewer/Panel.h"
 
 #include "command/viewer/PlainVector.h"
@@ -100,7 +101,7 @@ void Panel::draw(LiveScene& live, ViewSettings& settings, float left, float widt
 void Panel::drawTime(LiveScene& live, ViewSettings& settings) {
   row(live.scene().name, text("%.2f s", live.time()));
   ImGui::PushStyleColor(ImGuiCol_Text, faint);
-  row(runner::nameOf(live.scene().world) + ", " + runner::nameOf(runner::ownPrecision),
+  row(command::nameOf(live.scene().world) + ", " + command::nameOf(command::ownPrecision),
       text("%.0f pictures/s", framesPerSecond()));
   ImGui::PopStyleColor();
   if (ImGui::Button(live.isPaused() ? "Go on" : "Pause")) live.setPaused(!live.isPaused());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/viewer/Picking.h"
 
 #include "command/viewer/PlainVector.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/viewer/Player.h"
 
 #include "command/viewer/MouseHand.h"
@@ -94,7 +95,7 @@ std::optional<double> floorOf(const pictures::Scenery& scenery) {
 }
 
 /// The first state, and where the scene will take cloths by their pins.
-std::vector<pictures::Frame> framesToFit(const runner::Scene& scene, const pictures::Frame& first) {
+std::vector<pictures::Frame> framesToFit(const command::Scene& scene, const pictures::Frame& first) {
   std::vector<pictures::Frame> frames{first};
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
     if (!scene.cloths[i].motion) continue;
@@ -245,7 +246,7 @@ void Player::drawGrip() {
 
 void Player::savePicture(const std::string& file) {
   try {
-    runner::StagedOutput output(file, file, runner::StagedOutput::Kind::file);
+    command::StagedOutput output(file, file, command::StagedOutput::Kind::file);
     pictures::writePng(output.path(), m_window.read());
     output.commit();
     m_settings.message = "picture in " + file;
@@ -283,10 +284,10 @@ void requirePlayer() {}
 PlayerReport play(LiveScene& live, const PlayerOptions& options) {
   try {
     return Player(live, options).run();
-  } catch (const runner::RunError&) {
+  } catch (const command::RunError&) {
     throw;
   } catch (const std::runtime_error& failed) {
-    throw runner::RunError("wetcloth: " + runner::onOneLine(failed.what()));
+    throw command::RunError("wetcloth: " + command::onOneLine(failed.what()));
   }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/viewer/ViewCommand.h"
 
 #include "command/viewer/LiveScene.h"
@@ -25,27 +26,27 @@ std::pair<int, int> sizeOf(const std::string& text) {
   char end = 0;
   if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < smallest || height < smallest ||
       width > largest || height > largest) {
-    throw runner::InputError("wetcloth: --size = \"" + runner::onOneLine(text) +
-                             "\": must be WIDTHxHEIGHT in pixels, " + "each from " + std::to_string(smallest) + " to " +
-                             std::to_string(largest));
+    throw command::InputError("wetcloth: --size = \"" + command::onOneLine(text) +
+                              "\": must be WIDTHxHEIGHT in pixels, " + "each from " + std::to_string(smallest) +
+                              " to " + std::to_string(largest));
   }
   return {width, height};
 }
 
 /// Made before the window opens, so that a slip in the name is told at once; null: no picture is wanted.
-std::unique_ptr<runner::StagedOutput> pictureOf(const ViewOptions& options) {
+std::unique_ptr<command::StagedOutput> pictureOf(const ViewOptions& options) {
   const std::string& file = options.screenshot;
   if (file.empty()) return nullptr;
-  const std::string option = "wetcloth: --screenshot = \"" + runner::onOneLine(file) + "\"";
+  const std::string option = "wetcloth: --screenshot = \"" + command::onOneLine(file) + "\"";
   if (file.size() < 5 || file.substr(file.size() - 4) != ".png") {
-    throw runner::InputError(option + ": must be a file that ends in .png");
+    throw command::InputError(option + ": must be a file that ends in .png");
   }
-  return std::make_unique<runner::StagedOutput>(option, file, runner::StagedOutput::Kind::file);
+  return std::make_unique<command::StagedOutput>(option, file, command::StagedOutput::Kind::file);
 }
 
 PlayerOptions playerOptionsOf(const ViewOptions& options) {
   if (options.frames && (*options.frames < 1 || *options.frames > 1000000)) {
-    throw runner::InputError("wetcloth: --frames = " + std::to_string(*options.frames) + ": must be 1 to 1000000");
+    throw command::InputError("wetcloth: --frames = " + std::to_string(*options.frames) + ": must be 1 to 1000000");
   }
   const auto [width, height] = sizeOf(options.size);
   return {width, height, options.frames, ""};
@@ -54,7 +55,7 @@ PlayerOptions playerOptionsOf(const ViewOptions& options) {
 nlohmann::ordered_json jsonOf(const LiveScene& live, const PlayerReport& report) {
   nlohmann::ordered_json json;
   json["scene"] = live.scene().name;
-  json["precision"] = runner::nameOf(runner::ownPrecision);
+  json["precision"] = command::nameOf(command::ownPrecision);
   json["time_s"] = live.time();
   json["steps"] = live.steps();
   json["frames"] = report.frames;
@@ -68,7 +69,7 @@ nlohmann::ordered_json jsonOf(const LiveScene& live, const PlayerReport& report)
     if (effect.isOn) json["effects"].push_back(effect.key);
   }
   json["water_held_kg"] = live.waterHeld();
-  json["state_hash"] = runner::stateHash(live.world());
+  json["state_hash"] = command::stateHash(live.world());
   return json;
 }
 
@@ -76,10 +77,10 @@ nlohmann::ordered_json jsonOf(const LiveScene& live, const PlayerReport& report)
 
 void viewScene(const ViewOptions& options, char** arguments) {
   PlayerOptions playerOptions = playerOptionsOf(options);
-  LiveScene live(runner::readScene(options, arguments));
+  LiveScene live(command::readScene(options, arguments));
   const auto picture = pictureOf(options);
   requirePlayer();
-  runner::JsonOutput output(options.json);
+  command::JsonOutput output(options.json);
   live.setPaused(options.paused);
   live.setCompared(options.compare);
   if (picture) playerOptions.lastPicture = picture->path();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/SceneOptions.h"
@@ -7,7 +8,7 @@
 
 namespace viewer {
 
-struct ViewOptions : runner::SceneOptions {
+struct ViewOptions : command::SceneOptions {
   std::string size = "1280x800";  ///< of the window [pixels]
   bool paused = false;
   bool compare = false;

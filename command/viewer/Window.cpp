@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/viewer/Window.h"
 
 #include "command/cli/Errors.h"
@@ -20,9 +21,9 @@ namespace {
 [[noreturn]] void failToOpen() {
   const char* description = nullptr;
   glfwGetError(&description);
-  throw runner::RunError("wetcloth: no window could be opened: " +
-                         runner::onOneLine(description != nullptr ? description : "the display gives no reason") +
-                         "; `wetcloth render` needs no display");
+  throw command::RunError("wetcloth: no window could be opened: " +
+                          command::onOneLine(description != nullptr ? description : "the display gives no reason") +
+                          "; `wetcloth render` needs no display");
 }
 
 /// GLFW itself, from the first use of it to the last.

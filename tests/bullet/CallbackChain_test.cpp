@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The application's callbacks and ours share Bullet's one slot: who is called when, and what is left behind.
 
 #include "tests/support/CoreScene.h"

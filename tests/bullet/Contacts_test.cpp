@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The reader of Bullet's contact lists: what it tells of a contact, and what it passes over.
 
 #include "tests/support/ContactScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Bullet's tick callback, between its collision detection and its solve, is shared with the application like the
 // pre-tick callback, but only while a cloth has an effect of the stage `contact`.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // btSoftBody::generateBendingConstraints(2) links every pair of nodes two edges apart, nearly twice the paper's
 // springs, and indexes an n x n array with int, which overflows from 46,341 nodes on.
 

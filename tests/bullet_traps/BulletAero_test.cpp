@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Bullet's own aerodynamics: the two-sided models grow as the cube of the speed, and all clamp by the node's absolute
 // speed, so that wind never moves a cloth at rest. Ours stands on its own, and a body that has both feels both.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // initializeClusters() caches node masses, the cluster's mass, its centre and its inertia. Calling it again on a
 // running body is no way out: it takes the deformed shape for the rest shape.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // When Bullet's lists of contacts are filled, which collision flags fill them, and which it forgets to empty.
 
 #include "tests/support/ContactScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The deformable world caches node masses in two more places: its mass preconditioner, refreshed only when the number
 // of nodes changes, and each anchor's m_c0 and m_c2, computed once by btSoftBody::appendDeformableAnchor().
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The deformable world never reads Node::m_f, so a force that is only added there moves a cloth in two of Bullet's
 // worlds and does nothing in the third.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The deformable world with implicit integration starts its solve from Node::m_vn, the velocity at the end of the last
 // step, so a change of m_v alone is lost. Without projection nothing moves at all.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The deformable world lets soft bodies sleep; the other two do not. A sleeping body is neither predicted nor collided,
 // but its positions still move by its velocities, so pushing it every step would drag it through everything.
 

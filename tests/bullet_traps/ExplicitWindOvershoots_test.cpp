@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // An explicit wind on light, dry nodes overshoots the speed of the air: the force of the start of the step acts for
 // the whole of it. So ours is semi-implicit, and the explicit one is kept only for the comparison.
 

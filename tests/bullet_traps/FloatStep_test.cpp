@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The soft-rigid and soft-multibody worlds hand the step to their solver as a float even in Bullet's float64 build, so
 // motion agrees with closed forms to 1e-8 or so. Water does not go through that solver and must not lose digits.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // In the soft-rigid world the position solve recomputes m_v from positions after the actions and the post-tick
 // callback ran, so velocities written there are lost. The pre-tick callback is the one seam for all three worlds.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Link::m_c0 caches (inverse mass a + inverse mass b) / stiffness. Left alone when masses grow, it makes every
 // correction too small, which looks like a sag under the weight of the water.
 

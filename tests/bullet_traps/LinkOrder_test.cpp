@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The order of links decides how fast Bullet's position solve runs, and the order of links that share a node decides
 // its result. btSoftBodyHelpers can reorder them; for a body that is not ours that is the application's choice, so
 // nothing here may do it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Bullet has one pre-tick callback, no getter for it, and one user info that setting either callback overwrites.
 // Bullet's own SoftDemo keeps itself in that user info and drags the picked node from its pre-tick callback.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // setPose() caches each node's share of the mass, which shape matching uses for the centre and the rotation; calling it
 // again on a running body would take the deformed shape for the pose.
 

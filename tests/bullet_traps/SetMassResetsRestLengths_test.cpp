@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // btSoftBody::setMass() makes the next step reset every rest length to the deformed length, so a cloth whose masses are
 // set while it runs grows without bound.
 

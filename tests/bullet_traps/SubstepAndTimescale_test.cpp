@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The pre-tick callback runs once per substep with the substep's dt; what the body sees of it is another matter:
 // m_cfg.timescale scales the step in two of Bullet's worlds and not in the deformable one.
 

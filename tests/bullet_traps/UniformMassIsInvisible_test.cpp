@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Position-based links see only the ratios of masses, and gravity is an acceleration: a cloth that hangs under
 // nothing but its own weight does the same dry and wet. Nothing may fake a sag there.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // No tier allocates, single or in batches; only exact integers that outgrow their place may. C++ allocations are
 // counted by replacing operator new for this test program; sanitizers bring an operator new of their own, so there
 // nothing is counted.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A batch answers what its queries would be answered one by one, whatever its size and wherever it lies.
 
 #include "tests/support/QueryData.h"

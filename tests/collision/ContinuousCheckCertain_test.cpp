@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Contacts that are certain without exact arithmetic: a point crosses a face, or an edge another, in the inside of both
 // and by far more than long double rounds. These need no Boost, and there are many of them.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The cubic's error bound against rational arithmetic, for queries of every class: mixed scales are beyond integers.
 
 #include <bullet_wetcloth/collision/CoplanarityCubic.h>

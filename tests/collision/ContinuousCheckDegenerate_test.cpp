@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Hand-made queries, each a class in which floating-point checks fail, with the truth and the time known in closed
 // form.
 

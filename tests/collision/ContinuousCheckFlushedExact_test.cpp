@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Games let the processor flush denormal numbers to zero. The tiers must not miss a contact for it; judged by exact
 // arithmetic on the same numbers with flushing off.
 

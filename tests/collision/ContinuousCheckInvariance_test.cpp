@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A query says the same however its points are named, placed or measured: transformations without any rounding, so that
 // the truth cannot change.
 

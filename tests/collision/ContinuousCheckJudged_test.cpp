@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Every way of asking against exact arithmetic: found, when and where, for the collections and for generated queries,
 // in float (where the truth is that of the rounded query) and in double.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The two collections of tests/data/ccd against their exact answers.
 
 #include "tests/support/QueryData.h"

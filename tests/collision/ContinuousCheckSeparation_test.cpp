@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Thickness: two that come as near as minSeparation meet.
 
 #include "tests/support/QueryGenerator.h"

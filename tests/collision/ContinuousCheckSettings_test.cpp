@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Settings out of range are refused where they are given, with the field's name and the value.
 
 #include "tests/support/QueryGenerator.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Properties on queries that rapidcheck makes up and, where one fails, shrinks.
 
 #include "tests/support/QueryJudge.h"

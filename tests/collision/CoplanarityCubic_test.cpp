@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The cubic of Eq. 8 and its error bound against integer arithmetic without any rounding.
 
 #include <bullet_wetcloth/collision/CoplanarityCubic.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The exact answer against an oracle that shares nothing with it, against the published answers, and against what can
 // be said by hand about every degenerate case.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 // Whether and when two primitives meet, by means that have nothing in common with the library's: Sturm-Tarski

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Roots and signs at them against the oracle, for polynomials whose roots are multiple, common, at the ends of the
 // interval, or nearly so.
 

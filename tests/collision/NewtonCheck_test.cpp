@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "tests/support/QueryData.h"
 
 #include <bullet_wetcloth/collision/NewtonCheck.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // ccd_fuzz N [SEED]: N generated queries, every tier against exact arithmetic. Counts on stdout, progress on stderr;
 // the first misses as hex floats. Exit code 1 when any tier misses a contact or the exact one is wrong.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "tests/command/Command.h"
 
 #include <bullet_wetcloth/collision/ContinuousCheck.h>

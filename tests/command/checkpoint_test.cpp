@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // `wetcloth run --checkpoint` and `--resume`: a run that is cut short and goes on ends as if nothing had been.
 
 #include "tests/command/Command.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "tests/command/Command.h"
 
 #include "command/scene/SceneKeys.h"
@@ -64,7 +65,7 @@ TEST(Cost, WithoutASceneEveryEffectThatASceneCanHave) {
   EXPECT_EQ(result.at("steps"), 1);
   const std::vector<std::string> names = namesIn(result);
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()),
-            std::set<std::string>(runner::keys::effects.keys.begin(), runner::keys::effects.keys.end()));
+            std::set<std::string>(command::keys::effects.keys.begin(), command::keys::effects.keys.end()));
   expectConsistent(result);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // `wetcloth plot`: the numbers in the tables, the pictures, and what is refused.
 
 #include "tests/command/Command.h"

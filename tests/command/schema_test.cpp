@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "tests/command/Command.h"
 
 #include "command/scene/SceneKeys.h"
@@ -50,7 +51,7 @@ void expectClosedObjects(const Json& schema, const std::string& where) {
 TEST(Schema, HasTheKeysThatTheReaderKnowsAndNoOthers) {
   const Json schema = readJson(schemaFile);
   std::set<std::string> tables;
-  for (const runner::KeyTable* table : runner::keys::all) {
+  for (const command::KeyTable* table : command::keys::all) {
     const Json& object = table->name == "scene" ? schema : schema.at("$defs").at(table->name);
     std::set<std::string> inSchema;
     for (const auto& [key, value] : object.at("properties").items()) inSchema.insert(key);

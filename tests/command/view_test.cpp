@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "tests/command/Command.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "tests/command/WaterScene.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Where a cloth is in contact with water: a constant, an array, a function of position and normal; and when the
 // effect has nothing to do.
 

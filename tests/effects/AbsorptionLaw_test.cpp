@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // How much water a node holds after a time: the exponential law, forward Euler, the ramp.
 
 #include "tests/support/ClothScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Water that arrives brings its own velocity: v' = (m v + dm u) / (m + dm).
 
 #include "tests/support/ClothScene.h"

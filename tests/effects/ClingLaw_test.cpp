@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // What a bond gives of an impulse, and what Cling asks of its parameters and of a body.
 
 #include "tests/support/ContactScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A wet cloth on surfaces: how much it holds, how it lets go, and what it does to rigid bodies.
 
 #include "tests/support/ContactScene.h"

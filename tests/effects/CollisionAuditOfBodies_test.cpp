@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The audit of whole cloths: between bodies, without a trace on their motion, and through all that may happen to a body
 // while it runs.
 

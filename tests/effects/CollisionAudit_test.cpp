@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The audit counts what passes through what: hand-made motions with passages that can be counted by hand, in each of
 // Bullet's worlds. Bodies without links move freely, so each node goes where its velocity takes it.
 

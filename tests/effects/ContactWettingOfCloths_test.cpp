@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Water between two cloths that touch: what one gives the other takes, until they are equally wet.
 
 #include "tests/support/ContactScene.h"

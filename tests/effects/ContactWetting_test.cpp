@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Water from wet rigid bodies: the law, the film's balance, its momentum, and which nodes get it.
 
 #include "tests/support/ContactScene.h"

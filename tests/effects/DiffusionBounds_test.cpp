@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Diffusion never makes a node negative or over-full, and keeps water and momentum: any step, any mesh, any method.
 
 #include "tests/support/TransportScene.h"

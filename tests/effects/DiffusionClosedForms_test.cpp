@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Diffusion against closed forms: steps of its solver, an error function, a point source, the front of a wetted strip.
 
 #include "bullet_wetcloth/numerics/DiffusionSolver.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Diffusion: order in the spacing on good and bad meshes, in the step when D depends on the saturation, and that the
 // three methods and mirrored meshes agree.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // What Diffusion refuses, how much work it does, and a body that changes while it runs.
 
 #include "tests/support/TransportScene.h"

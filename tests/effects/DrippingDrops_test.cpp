@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Drops that an application is told of, the momentum they take, when the effect idles, and what it refuses.
 
 #include "bullet_wetcloth/effects/Dripping.h"

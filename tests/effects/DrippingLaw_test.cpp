@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // How much drips, and from where: the closed form at a lone low point, hems, level and tilted cloths.
 
 #include "bullet_wetcloth/effects/Dripping.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The law of drying over plain numbers: vapour pressure, rate, the two stages, drying time.
 
 #include "bullet_wetcloth/effects/Drying.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // When Drying idles, that it survives cuts and bad values, and what it refuses.
 
 #include "bullet_wetcloth/effects/Drying.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A cloth that dries: the closed form for one step or many, climate, wind, exposure.
 
 #include "bullet_wetcloth/effects/Drying.h"

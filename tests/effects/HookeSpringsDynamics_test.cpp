@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Springs in motion: the force itself, conserved quantities, periods, stiff springs and long steps.
 
 #include "tests/support/ClothScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A hanging chain of springs: link j stretches by (weight below it) / k, dry and wet, however Bullet is set up.
 
 #include "tests/support/ClothScene.h"

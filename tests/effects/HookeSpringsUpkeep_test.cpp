@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // What the springs take from the body and give back, how often they factor their matrix, what they refuse.
 
 #include "tests/support/ClothScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // When an immersed cloth costs nothing, and that it begins to soak in the very step in which it gets wet.
 
 #include "bullet_wetcloth/effects/Immersion.h"

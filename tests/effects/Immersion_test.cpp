@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Nodes below a water surface soak by the fabric's own law; the waterline moves with the cloth and with the water.
 
 #include "bullet_wetcloth/effects/Immersion.h"

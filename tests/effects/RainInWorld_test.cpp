@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Rain in each of Bullet's worlds: pins, sleep, cuts, places that are no numbers.
 
 #include "bullet_wetcloth/effects/Rain.h"

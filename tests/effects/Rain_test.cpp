@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // How much rain a cloth catches, what of it goes in and what runs off.
 
 #include "bullet_wetcloth/effects/Rain.h"

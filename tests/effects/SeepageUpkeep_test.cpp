@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Seepage: the momentum it carries in every world, what it refuses, how much work it does.
 
 #include "tests/support/TransportScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Seepage: its formula, fronts, pools, what it leaves alone, and its balance with diffusion.
 
 #include "tests/support/TransportScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A cloth that soaks gets heavier, softer and shorter, all in one run, and is itself again once it has dried.
 
 #include "bullet_wetcloth/effects/Swelling.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Splash in each of Bullet's worlds, and what it refuses.
 
 #include "bullet_wetcloth/effects/Splash.h"

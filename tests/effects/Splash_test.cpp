@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Water thrown in a sphere or from a hose: what a cloth catches of it, against the stream's own flow.
 
 #include "bullet_wetcloth/effects/Splash.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // What Swelling writes into the links, and what it gives back.
 
 #include "bullet_wetcloth/effects/Swelling.h"

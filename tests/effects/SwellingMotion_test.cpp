@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A cloth that shrinks moves: in every world, with Bullet's links or springs and with HookeSprings.
 
 #include "bullet_wetcloth/effects/Swelling.h"

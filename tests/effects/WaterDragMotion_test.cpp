@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // How a cloth moves in water: sinking and rising against closed forms, currents, stability at any speed and step,
 // sleep.
 

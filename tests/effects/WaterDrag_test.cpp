@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // What water does to a cloth in one step: buoyancy, resistance, the waterline, where there is no water; bad input.
 
 #include "bullet_wetcloth/effects/WaterDrag.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Friction by saturation: the curve, Bullet's own rules with the new coefficient, and how wet cloths slide.
 
 #include "tests/support/ContactScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Damping along links: exact for one link, never more energy, momentum and spin kept, in every world.
 
 #include "bullet_wetcloth/effects/WetStiffness.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The formulas alone, and what the effect refuses.
 
 #include "bullet_wetcloth/effects/WetStiffness.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Bullet's own links: what their constants become, what stays as it was, how much work it is, and what a factor means.
 
 #include "bullet_wetcloth/effects/WetStiffness.h"

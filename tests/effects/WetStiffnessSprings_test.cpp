@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // HookeSprings on a cloth whose links water softens: closed forms at rest, the order of adding, the factorisations.
 
 #include "bullet_wetcloth/effects/WetStiffness.h"

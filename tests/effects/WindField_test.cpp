@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Wind that varies in space and time, and what the effect refuses.
 
 #include "tests/support/ClothScene.h"

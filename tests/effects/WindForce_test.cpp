@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The air's force on one triangle, against values computed by hand. No Bullet world in it.
 
 #include "tests/support/ClothScene.h"

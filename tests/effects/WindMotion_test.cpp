@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // How a cloth moves through air: falls against their closed forms, terminal speed, stability at any step.
 
 #include "tests/support/ClothScene.h"

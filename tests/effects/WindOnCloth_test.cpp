@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // What the wind does to a whole cloth in one step: total force, its sharing among corners, relative speed.
 
 #include "tests/support/ClothScene.h"

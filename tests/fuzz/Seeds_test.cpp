@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The inputs that fuzzing begins from, and those that it once found something with: each is taken or refused.
 
 #include "tests/fuzz/Targets.h"

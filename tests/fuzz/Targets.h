@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 // What is fuzzed, one function for each reader of bytes from outside; by libFuzzer (./dev fuzz), and with the kept
@@ -17,17 +18,17 @@ namespace fuzz {
 
 inline void scene(const std::string& bytes) {
   const Input input(bytes);
-  takesOrRefuses<runner::InputError>([&] { runner::readScene(input.path()); });
+  takesOrRefuses<command::InputError>([&] { command::readScene(input.path()); });
 }
 
 inline void obj(const std::string& bytes) {
   const Input input(bytes);
-  takesOrRefuses<std::invalid_argument>([&] { runner::readObj(input.path()); });
+  takesOrRefuses<std::invalid_argument>([&] { command::readObj(input.path()); });
 }
 
 inline void ccd(const std::string& bytes) {
   const Input input(bytes);
-  takesOrRefuses<runner::InputError>([&] { runner::readQueries(input.path()); });
+  takesOrRefuses<command::InputError>([&] { command::readQueries(input.path()); });
 }
 
 /// The first byte chooses: an odd one, and the rest is a whole stream; an even one, and it is the state within a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // libFuzzer's entry to one of the targets, which the build names.
 
 #include "tests/fuzz/Targets.h"

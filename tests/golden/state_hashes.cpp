@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Runs every scene of examples/scenes for a moment and compares the hash of what it came to with the stored one:
 //   state-hashes-PRECISION STORED.json SCENE.json... [--write]
 // --write stores the hashes instead. Exit status 0: as stored; 1: not so; 77: not so, but neither are the compiler and
@@ -67,17 +68,17 @@ Json toolchain() {
   return json;
 }
 
-std::string run(const runner::Scene& scene) {
-  runner::SceneWorld world(scene);
+std::string run(const command::Scene& scene) {
+  command::SceneWorld world(scene);
   for (int step = 0; step < kSteps; ++step) world.step();
-  return runner::stateHash(world);
+  return command::stateHash(world);
 }
 
 /// Bullet shuffles contacts of two soft bodies there by random numbers that go on from run to run in a process.
-bool isSameEachTime(const runner::Scene& scene) {
-  if (scene.world != runner::WorldKind::deformable) return true;
+bool isSameEachTime(const command::Scene& scene) {
+  if (scene.world != command::WorldKind::deformable) return true;
   bool meetsCloth = scene.cloths.size() > 1;
-  for (const runner::ClothScene& cloth : scene.cloths) meetsCloth = meetsCloth || cloth.selfCollision;
+  for (const command::ClothScene& cloth : scene.cloths) meetsCloth = meetsCloth || cloth.selfCollision;
   return !meetsCloth;
 }
 
@@ -89,7 +90,7 @@ struct Hashes {
 Hashes runAll(const std::vector<std::string>& files) {
   Hashes hashes;
   for (const std::string& file : files) {
-    const runner::Scene scene = runner::readScene(file);
+    const command::Scene scene = command::readScene(file);
     const std::string name = std::filesystem::path(file).stem().string();
     const std::string hash = run(scene);
     hashes.found[name] = hash;
@@ -159,7 +160,7 @@ int main(int count, char** arguments) {
     return 2;
   }
   try {
-    const std::string precision = runner::nameOf(runner::ownPrecision);
+    const std::string precision = command::nameOf(command::ownPrecision);
     const Hashes hashes = runAll(files);
     if (!writes) return check(arguments[1], precision, hashes, arguments[0]);
     write(arguments[1], readStored(arguments[1]), precision, hashes.found);

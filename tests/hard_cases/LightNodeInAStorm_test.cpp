@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A node of 1e-5 kg, air of 50 m/s and more, steps of 1/30 s and more: the air never pushes anything past its own
 // velocity, and nothing ever leaves the range of numbers.
 

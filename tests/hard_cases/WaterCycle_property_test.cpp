@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The whole water cycle at once: rapidcheck makes up meshes, effects, parameters and steps. Whatever it makes, no
 // number stops being finite, no node holds less than nothing or more than it can, and the ledger closes.
 

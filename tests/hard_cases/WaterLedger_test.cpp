@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The water ledger over a long life: every effect at once, a hundred thousand steps. Only our own part of the step
 // runs, since the water is all that is asked for.
 

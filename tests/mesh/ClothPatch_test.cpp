@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The paper's patch: its springs, each once; its masses, pins and texture coordinates; what it refuses.
 
 #include "tests/support/ClothScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/mesh/IntrinsicDelaunay.h"
 
 #include "tests/support/TransportScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A cloth's triangles at rest: known by the rest lengths of their edges, however the body is bent.
 
 #include "bullet_wetcloth/mesh/RestMesh.h"

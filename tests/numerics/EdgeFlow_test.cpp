@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // What moves along edges stays within what nodes hold and can hold, and takes its momentum with it.
 
 #include "bullet_wetcloth/numerics/EdgeFlow.h"

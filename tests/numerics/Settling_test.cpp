@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // When an effect that moves water may idle, and what makes it go on.
 
 #include "bullet_wetcloth/numerics/Settling.h"

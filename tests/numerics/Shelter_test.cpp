@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Which triangles are behind others along a stream: known arrangements, and random ones against looking at each pair.
 
 #include "bullet_wetcloth/numerics/Shelter.h"

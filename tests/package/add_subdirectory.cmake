@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # A parent build takes the tree in by add_subdirectory: it gets the library and nothing else, and links to it from
 # a directory that never called find_package.
 include("${CMAKE_CURRENT_LIST_DIR}/package_test.cmake")

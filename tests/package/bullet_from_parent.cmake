@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # Targets of a parent build come before everything else: targets that the parent found, targets that it wraps, and
 # Bullet's own source tree as a subdirectory, whose targets say nothing about their headers or their precision.
 include("${CMAKE_CURRENT_LIST_DIR}/package_test.cmake")

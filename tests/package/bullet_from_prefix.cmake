@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # BULLET_ROOT names a prefix with one precision of Bullet, its libraries without a suffix, as a build of one's own
 # installs them: that precision is told by linking, and nothing comes from the system.
 include("${CMAKE_CURRENT_LIST_DIR}/package_test.cmake")

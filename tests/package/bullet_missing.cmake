@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # A Bullet that is not there, or does not link, is an error that says what to install; a prefix that was named is
 # never quietly exchanged for the system's.
 include("${CMAKE_CURRENT_LIST_DIR}/package_test.cmake")

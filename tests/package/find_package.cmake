@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # An installed bullet_wetcloth is found by find_package, with its Bullet, in each precision; its users need no
 # Eigen, and it may be moved.
 include("${CMAKE_CURRENT_LIST_DIR}/package_test.cmake")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # A target that links both precisions, of ours or one of ours and one of Bullet's, does not get past CMake.
 include("${CMAKE_CURRENT_LIST_DIR}/package_test.cmake")
 

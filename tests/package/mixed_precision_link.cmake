@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # Without CMake: code compiled for float32 that is given the float64 libraries does not link, and the message names
 # the precision. The same line with BT_USE_DOUBLE_PRECISION does, so it is the precision that stops it.
 include("${CMAKE_CURRENT_LIST_DIR}/package_test.cmake")

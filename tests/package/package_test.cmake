@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 # What the package tests share: the facts about the build under test, and steps that fail with their output.
 cmake_minimum_required(VERSION 3.21)
 include("${FACTS}")

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Basori et al. 2017, claim S8: the cubic of Eq. 8, whose roots are the times of possible contact.
 
 #include "bullet_wetcloth/collision/CoplanarityCubic.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Basori et al. 2017, claims S1 to S3 and S12: the patch, its springs, gravity, and the stretch of the wet cloth.
 
 #include "tests/paper/PaperCloth.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Basori et al. 2017, claims S4 to S6 and S9: how the cloth takes up water, and how it darkens.
 
 #include "tests/paper/PaperCloth.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Basori et al. 2017, claims S7, S8, S10 and S11: wind, collision, frame rate, and the fall.
 
 #include "tests/paper/PaperCloth.h"

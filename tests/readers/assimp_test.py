@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 """OBJ and PLY, read by the Open Asset Import Library."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 """OBJ with its PC2 point cache, played by Blender's modifier Mesh Cache."""
 
 import shutil

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 """Drives a headless Chromium through its DevTools protocol, over pipes: nothing but Python's own library."""
 
 import base64

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 """What the tests of exported files share: a scene, the command, and what the command says of the run."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 """The page of `wetcloth render`, in a headless Chromium: it loads, draws, scrubs, plays, and logs no error."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 """Reads the PNG files that browsers make: 8 bits a channel, not interlaced."""
 
 import struct

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 """USD as text, read by Pixar's library."""
 
 from exported import check, export, near, prepare, scene, skip, wetcloth

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 """VTK PolyData with its .pvd, and PLY, read by VTK, against what `wetcloth run` says of the last state."""
 
 import os

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Why wet cloth is darker (Lekner & Dorf 1988), the paper's four stages, and roughness.
 
 #include "tests/support/ClothScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // What an application's btIDebugDraw is given: triangles by saturation, and the wind on them.
 
 #include "tests/support/ClothScene.h"

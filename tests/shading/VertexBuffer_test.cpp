@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A user's vertex buffer: what lands where in it, and what is refused.
 
 #include "tests/support/ClothScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // An effect of the application's own takes part by naming what it remembers.
 
 #include "tests/state/StateScene.h"

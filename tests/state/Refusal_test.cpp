@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // What cannot be restored is refused with a message that says why, and nothing of the world has changed by then.
 
 #include "tests/state/StateScene.h"

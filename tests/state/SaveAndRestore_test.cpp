@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // A run that is saved at any step and restored into a world that was built anew goes on bit for bit as the run that
 // nobody touched.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 // The collision queries of tests/data/ccd with their exact answers.

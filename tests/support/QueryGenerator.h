@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 // Queries by class, each class a way in which floating-point collision checks are known to fail. The same seed gives

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 // What the tests of the collision checks know of a query by themselves: where its points are, how fast and how near.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 // The exact answer to a query as the judge of all others. For builds with Tier::exact only.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Different worlds may run in different threads at once: each comes to what it comes to alone, and ThreadSanitizer
 // (./dev tsan) finds nothing that two of them share.
 

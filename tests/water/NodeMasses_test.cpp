@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // What the application does to masses while a cloth is wet is respected: a node it pins stays pinned, a mass it sets
 // is the node's new dry mass.
 

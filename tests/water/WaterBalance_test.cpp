@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // No water is made or lost: initial + absorbed == held + dripped + evaporated, at every step, to rounding.
 
 #include "tests/support/CoreScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Effects that follow each other in one step keep the momentum together, however much water arrived in it, is passed on
 // and leaves again.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Water that lands brings its own velocity: v' = (m v + dm u) / (m + dm), so momentum is neither made nor lost.
 
 #include "tests/support/CoreScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Water that moves inside the cloth, between two nodes or many at once, conserves mass and momentum, also with water
 // that arrives or leaves in the same step.
 

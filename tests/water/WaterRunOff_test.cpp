@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Water that strikes a cloth and is not taken in leaves its momentum, as in an inelastic impact, and nothing else.
 
 #include "tests/support/CoreScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/gl/ColourBar.h"
 
 #include "command/pictures/ColourMap.h"

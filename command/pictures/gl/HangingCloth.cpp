@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/gl/HangingCloth.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "command/pictures/gl/PictureBuffer.h"
 
 #include "Embedded.h"

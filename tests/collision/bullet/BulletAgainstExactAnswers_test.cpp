@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Bullet 3.24's check of a node against a face, on the queries of tests/data/ccd. The exact answers are the judge, so
 // nothing here says that Bullet is right: its disagreements are counted, each under the first step of its pipeline that
 // goes wrong, and pinned. A newer Bullet that mends one of them fails here, and docs/ccd.md is to be updated.
@@ -84,7 +85,7 @@ struct CoplanarTimes {
   std::vector<Wide> roots;
   bool always;
 
-  explicit CoplanarTimes(const runner::BulletQuery& query) {
+  explicit CoplanarTimes(const command::BulletQuery& query) {
     const btSoftBody::Face& face = query.face();
     const auto place = [&](const btSoftBody::Node& n) { return wide(n.m_x) - wide(face.m_n[0]->m_x); };
     const auto motion = [&](const btSoftBody::Node& n) {
@@ -106,7 +107,7 @@ struct CoplanarTimes {
 };
 
 // Bullet's own inside test at a time of ours, in steps.
-bool bulletTouchesAt(const runner::BulletQuery& query, Wide time) {
+bool bulletTouchesAt(const command::BulletQuery& query, Wide time) {
   const btScalar t = btScalar(time * query.step());
   const btSoftBody::Face& face = query.face();
   const auto at = [&](const btSoftBody::Node& n) { return n.m_x + t * n.m_v; };
@@ -114,7 +115,7 @@ bool bulletTouchesAt(const runner::BulletQuery& query, Wide time) {
   btVector3 normal = (b - a).cross(c - a);
   normal.safeNormalize();
   btVector3 weights;
-  return proximityTest(a, b, c, at(query.node()), normal, btScalar(runner::BulletQuery::kMargin), weights);
+  return proximityTest(a, b, c, at(query.node()), normal, btScalar(command::BulletQuery::kMargin), weights);
 }
 
 // Bullet's pipeline without its separating planes, from the mathematics and from Bullet's own solvers: the next thing
@@ -124,7 +125,7 @@ struct BulletWithoutSeparatingPlanes {
   int degree;                     // that Bullet takes it for; -1 where it takes it for zero
   bool found = false;
 
-  explicit BulletWithoutSeparatingPlanes(const runner::BulletQuery& query) {
+  explicit BulletWithoutSeparatingPlanes(const command::BulletQuery& query) {
     const btSoftBody::Face& face = query.face();
     const btSoftBody::Node &a = *face.m_n[0], &b = *face.m_n[1], &c = *face.m_n[2], &p = query.node();
     const btVector3 edge1 = b.m_x - a.m_x, edge2 = c.m_x - a.m_x, offset = p.m_x - a.m_x;
@@ -203,7 +204,7 @@ std::vector<test::KnownQuery> queriesThatBulletKnows(const std::string& collecti
   return queries;
 }
 
-void blameForMiss(const runner::BulletQuery& query, Disagreements& counts) {
+void blameForMiss(const command::BulletQuery& query, Disagreements& counts) {
   const BulletWithoutSeparatingPlanes rest(query);
   if (hasSeparatingPlane(&query.face(), &query.node(), query.step())) {
     ++counts.separated;
@@ -229,7 +230,7 @@ void blameForMiss(const runner::BulletQuery& query, Disagreements& counts) {
 Disagreements disagreementsOf(const std::string& collection, double step) {
   Disagreements counts;
   for (const test::KnownQuery& known : queriesThatBulletKnows(collection)) {
-    const runner::BulletQuery query(known.points, step);
+    const command::BulletQuery query(known.points, step);
     const bool found = query.check();
     // What Bullet's world puts before it changes no answer.
     EXPECT_EQ(query.checkAsItsWorldDoes(), found)
@@ -309,7 +310,7 @@ TEST(BulletAgainstExactAnswers, OurCopyOfBulletsPipelineAnswersAsBulletDoes) {
   for (const std::string collection : {"real", "cloth"})
     for (const double step : {kStepOfOne, kBulletsDefaultStep})
       for (const test::KnownQuery& known : queriesThatBulletKnows(collection)) {
-        const runner::BulletQuery query(known.points, step);
+        const command::BulletQuery query(known.points, step);
         if (hasSeparatingPlane(&query.face(), &query.node(), query.step())) {
           EXPECT_FALSE(query.check()) << known.id;
         } else {
@@ -326,7 +327,7 @@ TEST(BulletAgainstExactAnswers, ItsBernsteinCullingLosesNoContact) {
   constexpr Wide kRoundings = 72;
   for (const std::string collection : {"real", "cloth"})
     for (const test::KnownQuery& known : queriesThatBulletKnows(collection)) {
-      const runner::BulletQuery query(known.points);
+      const command::BulletQuery query(known.points);
       if (known.meets) {
         EXPECT_TRUE(bernsteinVFTest(&query.face(), &query.node(), query.step(), SAFE_EPSILON)) << known.id;
       }
@@ -358,7 +359,7 @@ TEST(BulletAgainstExactAnswers, RoundingChangesSomeAnswersInFloat32) {
   for (const std::string collection : {"real", "cloth"}) {
     int lost = 0, lostAndMissed = 0, gained = 0, gainedAndFound = 0;
     for (const test::KnownQuery& known : queriesThatBulletKnows(collection)) {
-      const runner::BulletQuery bullet(known.points);
+      const command::BulletQuery bullet(known.points);
       const btSoftBody::Node* nodes[4] = {&bullet.node(), bullet.face().m_n[0], bullet.face().m_n[1],
                                           bullet.face().m_n[2]};
       wetcloth::collision::Query<double> rounded;
@@ -389,7 +390,7 @@ TEST(BulletAgainstExactAnswers, ItsUnreachableInsideTestWouldLoseContacts) {
     int lost = 0;
     for (const test::KnownQuery& known : queriesThatBulletKnows(collection)) {
       if (!known.meets) continue;
-      const runner::BulletQuery query(known.points);
+      const command::BulletQuery query(known.points);
       btScalar k0, k1, k2, k3;
       getBernsteinCoeff(&query.face(), &query.node(), query.step(), k0, k1, k2, k3);
       lost += !coplanarAndInsideTest(k0, k1, k2, k3, &query.face(), &query.node(), query.step());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // One small example for each thing that makes Bullet 3.24's check of a node against a face miss a contact, and for what
 // is odd about its parts. All of these pin what plain Bullet does: a failure means that Bullet changed, and that
 // docs/ccd.md is to be updated.
@@ -32,14 +33,14 @@ BulletsQuery slantedFall(double s) {
 }
 
 bool separatedByBullet(const BulletsQuery& points) {
-  const runner::BulletQuery query(points);
+  const command::BulletQuery query(points);
   return hasSeparatingPlane(&query.face(), &query.node(), query.step());
 }
 
 TEST(CausesOfBulletsMisses, AnOrdinaryContactIsFound) {
   EXPECT_FALSE(separatedByBullet(slantedFall(1)));
-  EXPECT_TRUE(runner::bulletContinuousCheck(slantedFall(1)));
-  EXPECT_TRUE(runner::BulletQuery(slantedFall(1)).checkAsItsWorldDoes());
+  EXPECT_TRUE(command::bulletContinuousCheck(slantedFall(1)));
+  EXPECT_TRUE(command::BulletQuery(slantedFall(1)).checkAsItsWorldDoes());
 }
 
 // hasSeparatingPlane ------------------------------------------------------------------------------------------------
@@ -48,8 +49,8 @@ TEST(CausesOfBulletsMisses, ANodeAtRestUnderAMovingFaceIsSeparated) {
   const BulletsQuery points = {{{0.2, 0.25, 0}, {0, 0, 0.5}, {1, 0, 0.5}, {0, 1, 0.5}},
                                {{0.2, 0.25, 0}, {0, 0, -0.5}, {1, 0, -0.5}, {0, 1, -0.5}}};
   EXPECT_TRUE(separatedByBullet(points)) << "Bullet's hasSeparatingPlane changed: update docs/ccd.md";
-  EXPECT_FALSE(runner::bulletContinuousCheck(points)) << "Bullet's hasSeparatingPlane changed: update docs/ccd.md";
-  EXPECT_FALSE(runner::BulletQuery(points).checkAsItsWorldDoes());
+  EXPECT_FALSE(command::bulletContinuousCheck(points)) << "Bullet's hasSeparatingPlane changed: update docs/ccd.md";
+  EXPECT_FALSE(command::BulletQuery(points).checkAsItsWorldDoes());
 }
 
 TEST(CausesOfBulletsMisses, ANodeThatFallsStraightDownIsSeparated) {
@@ -58,7 +59,7 @@ TEST(CausesOfBulletsMisses, ANodeThatFallsStraightDownIsSeparated) {
     points.end[0][0] = points.start[0][0];
     points.end[0][1] = points.start[0][1];
     EXPECT_TRUE(separatedByBullet(points)) << "Bullet's hasSeparatingPlane changed: update docs/ccd.md";
-    EXPECT_FALSE(runner::bulletContinuousCheck(points)) << size;
+    EXPECT_FALSE(command::bulletContinuousCheck(points)) << size;
   }
 }
 
@@ -88,12 +89,12 @@ TEST(CausesOfBulletsMisses, ANegativeQMissesATurningFace) {
   const BulletsQuery points = {{{0.11, 0.45, 0.5}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                                {{0.22, 0.57, -0.5}, {0, 0, 0}, {1, 1, 0}, {-1, 1, 0}}};
   EXPECT_FALSE(separatedByBullet(points));
-  EXPECT_FALSE(runner::bulletContinuousCheck(points)) << "Bullet's SolveP3 changed: update docs/ccd.md";
+  EXPECT_FALSE(command::bulletContinuousCheck(points)) << "Bullet's SolveP3 changed: update docs/ccd.md";
   // The same face turning the less is no cubic any more, or one with a^2 > 3 b: found.
   BulletsQuery still = points;
   for (int i = 1; i < 4; ++i)
     for (int axis = 0; axis < 3; ++axis) still.end[i][axis] = still.start[i][axis];
-  EXPECT_TRUE(runner::bulletContinuousCheck(still));
+  EXPECT_TRUE(command::bulletContinuousCheck(still));
 }
 
 // The cubic of a motion that is nearly linear has a huge second coefficient once it is monic, and the root is the
@@ -135,31 +136,31 @@ TEST(CausesOfBulletsMissesDeathTest, SolveP3NeverReturnsWhenRSquaredOverflows) {
 TEST(CausesOfBulletsMisses, FacesBelowACertainSizeMeetNothing) {
   const double smallest = std::pow(double(SIMD_EPSILON), 0.25);
   for (const double step : {1.0, 1.0 / 60, 1.0 / 240}) {
-    EXPECT_FALSE(runner::bulletContinuousCheck(slantedFall(0.99 * smallest), step))
+    EXPECT_FALSE(command::bulletContinuousCheck(slantedFall(0.99 * smallest), step))
         << "Bullet's proximityTest changed: update docs/ccd.md";
-    EXPECT_FALSE(runner::bulletContinuousCheck(slantedFall(0.5 * smallest), step));
+    EXPECT_FALSE(command::bulletContinuousCheck(slantedFall(0.5 * smallest), step));
   }
-  EXPECT_TRUE(runner::bulletContinuousCheck(slantedFall(1.01 * smallest), 1.0 / 60));
+  EXPECT_TRUE(command::bulletContinuousCheck(slantedFall(1.01 * smallest), 1.0 / 60));
 }
 
 TEST(CausesOfBulletsMisses, AbsoluteThresholdsMissSmallClothInFloat32) {
   const double size = 0.01;  // a fine cloth's edges, in metres
 #ifdef BT_USE_DOUBLE_PRECISION
-  EXPECT_TRUE(runner::bulletContinuousCheck(slantedFall(size), 1.0 / 60));
+  EXPECT_TRUE(command::bulletContinuousCheck(slantedFall(size), 1.0 / 60));
 #else
-  EXPECT_FALSE(runner::bulletContinuousCheck(slantedFall(size), 1.0 / 60))
+  EXPECT_FALSE(command::bulletContinuousCheck(slantedFall(size), 1.0 / 60))
       << "Bullet's thresholds changed: update docs/ccd.md";
 #endif
   // The same, in centimetres.
-  EXPECT_TRUE(runner::bulletContinuousCheck(slantedFall(100 * size), 1.0 / 60));
+  EXPECT_TRUE(command::bulletContinuousCheck(slantedFall(100 * size), 1.0 / 60));
 }
 
 #ifndef BT_USE_DOUBLE_PRECISION
 // The coefficients have the unit m^3 / s^k and one threshold: 2 cm in one step of 1 s is no motion, in 1/60 s it is.
 TEST(CausesOfBulletsMisses, ThresholdsDependOnTheUnitOfTime) {
-  EXPECT_FALSE(runner::bulletContinuousCheck(slantedFall(0.02), 1))
+  EXPECT_FALSE(command::bulletContinuousCheck(slantedFall(0.02), 1))
       << "Bullet's continuousCollisionDetection changed: update docs/ccd.md";
-  EXPECT_TRUE(runner::bulletContinuousCheck(slantedFall(0.02), 1.0 / 60));
+  EXPECT_TRUE(command::bulletContinuousCheck(slantedFall(0.02), 1.0 / 60));
 }
 #endif
 
@@ -168,7 +169,7 @@ TEST(CausesOfBulletsMisses, ThresholdsDependOnTheUnitOfTime) {
 TEST(CausesOfBulletsMisses, AContactAtTheVeryStartIsSkipped) {
   BulletsQuery points = slantedFall(1);
   points.start[0][2] = 0;  // it starts on the face
-  EXPECT_FALSE(runner::bulletContinuousCheck(points))
+  EXPECT_FALSE(command::bulletContinuousCheck(points))
       << "Bullet's continuousCollisionDetection changed: update docs/ccd.md";
 }
 
@@ -177,10 +178,10 @@ TEST(CausesOfBulletsMisses, ANodeThatCrossesAFaceInItsOwnPlaneIsMissed) {
   BulletsQuery points = {{{-1, 0.26, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                          {{2, 0.35, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
   EXPECT_FALSE(separatedByBullet(points));
-  EXPECT_FALSE(runner::bulletContinuousCheck(points))
+  EXPECT_FALSE(command::bulletContinuousCheck(points))
       << "Bullet's continuousCollisionDetection changed: update docs/ccd.md";
   points.end[0][0] = 0.3;  // ends inside the face
-  EXPECT_TRUE(runner::bulletContinuousCheck(points));
+  EXPECT_TRUE(command::bulletContinuousCheck(points));
 }
 
 // Margins -----------------------------------------------------------------------------------------------------------
@@ -190,7 +191,7 @@ TEST(CausesOfBulletsMisses, WhatPassesAFaceWithinTheMarginIsAFalseAlarm) {
   const auto passBeside = [&](double gap) {
     points.start[0][1] = -gap - 0.1;
     points.end[0][1] = -gap + 0.1;  // at half-time, when it is in the plane, -gap from the edge on the x axis
-    return runner::bulletContinuousCheck(points);
+    return command::bulletContinuousCheck(points);
   };
   // The margin in weights is 1e-6 / sqrt(area) = 1.4e-6; half of it, and ten times it.
   EXPECT_TRUE(passBeside(0.7e-6)) << "Bullet's proximityTest changed: update docs/ccd.md";
@@ -203,7 +204,7 @@ TEST(CausesOfBulletsMisses, BernsteinVFTestReturnsBeforeItsInsideTest) {
   BulletsQuery points = slantedFall(1);
   points.start[0][0] += 50;
   points.end[0][0] += 50;  // through the plane, far from the face
-  const runner::BulletQuery query(points);
+  const command::BulletQuery query(points);
   EXPECT_TRUE(bernsteinVFTest(&query.face(), &query.node(), query.step(), SAFE_EPSILON))
       << "Bullet's bernsteinVFTest changed: update docs/ccd.md";
   btScalar k0, k1, k2, k3;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Orders, fronts and extrapolation, on numbers whose answers are known.
 
 #include "command/accuracy/ConvergenceOrder.h"

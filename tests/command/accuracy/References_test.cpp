@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // What the studies compare with, against physics: these share no code with the library.
 
 #include "command/accuracy/BarenblattSpread.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The quick studies say what numerical analysis says: orders, and who is right about the paper.
 
 #include "command/accuracy/Studies.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Drops between a cloth and the ground, as pictures show them.
 
 #include "command/render/FallingDrops.h"
@@ -7,8 +8,8 @@
 namespace wetcloth_test {
 namespace {
 
-using runner::FallingDrops;
-using runner::Scene;
+using command::FallingDrops;
+using command::Scene;
 using wetcloth::Dripping;
 
 constexpr double kDropMass = 4e-5;  // [kg]
@@ -45,7 +46,7 @@ class Dripper {
   Dripping* m_dripping = nullptr;
 };
 
-Scene sceneWith(std::vector<runner::Collider> colliders) {
+Scene sceneWith(std::vector<command::Collider> colliders) {
   Scene scene;
   scene.colliders = std::move(colliders);
   return scene;
@@ -85,7 +86,7 @@ TEST(FallingDrops, AreSpheresOfTheirWater) {
 }
 
 TEST(FallingDrops, EndAtTheGround) {
-  const Scene scene = sceneWith({runner::Plane{btVector3(0, 1, 0), 0.2}, runner::Sphere{btVector3(0, 0.5, 0), 0.2}});
+  const Scene scene = sceneWith({command::Plane{btVector3(0, 1, 0), 0.2}, command::Sphere{btVector3(0, 0.5, 0), 0.2}});
   Dripper dripper(scene);
   dripper.dripOnce();
   const double landing = std::sqrt(2 * 0.8 / 9.81);
@@ -94,8 +95,8 @@ TEST(FallingDrops, EndAtTheGround) {
 }
 
 TEST(FallingDrops, EndAtTheWater) {
-  Scene scene = sceneWith({runner::Plane{btVector3(0, 1, 0), 0}});
-  scene.water = runner::WaterScene{0.5};
+  Scene scene = sceneWith({command::Plane{btVector3(0, 1, 0), 0}});
+  scene.water = command::WaterScene{0.5};
   Dripper dripper(scene);
   dripper.dripOnce();
   const double landing = std::sqrt(2 * 0.5 / 9.81);
@@ -104,7 +105,7 @@ TEST(FallingDrops, EndAtTheWater) {
 }
 
 TEST(FallingDrops, WhatHasLandedIsForgotten) {
-  const Scene scene = sceneWith({runner::Plane{btVector3(0, 1, 0), 0}});
+  const Scene scene = sceneWith({command::Plane{btVector3(0, 1, 0), 0}});
   Dripper dripper(scene);
   dripper.dripOnce();
   dripper.drops.forgetLanded(0.3);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // The table of `wetcloth stability`: every case in every world at one step, and what the obvious ways come to. The
 // other steps are the command's business.
 

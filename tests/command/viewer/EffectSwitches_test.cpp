@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "tests/command/viewer/ViewerScene.h"
 
 #include "command/run/StateHash.h"
@@ -28,9 +29,9 @@ std::size_t effectCount(const LiveScene& live) { return live.world().cloths()[0]
 }  // namespace
 
 TEST_P(EffectSwitchesIn, EveryEffectGoesOnAndOffInTheMiddleOfARun) {
-  runner::Scene scene = soakingTowel(GetParam());
-  scene.colliders = {runner::Plane{btVector3(0, 1, 0), 0}};
-  scene.water = runner::WaterScene{1.3, 1000};
+  command::Scene scene = soakingTowel(GetParam());
+  scene.colliders = {command::Plane{btVector3(0, 1, 0), 0}};
+  scene.water = command::WaterScene{1.3, 1000};
   LiveScene live(scene);
   const std::size_t usual = effectCount(live);
   std::set<std::string> taken;
@@ -85,11 +86,11 @@ TEST(EffectSwitches, OffAndOnAgainBeforeTheStartChangesNothing) {
   run(live, 10);
   LiveScene fresh(soakingTowel());
   run(fresh, 10);
-  EXPECT_EQ(runner::stateHash(live.world()), runner::stateHash(fresh.world()));
+  EXPECT_EQ(command::stateHash(live.world()), command::stateHash(fresh.world()));
 }
 
 TEST(EffectSwitches, AnEffectOfTheSceneStaysWithItsCloth) {
-  runner::Scene scene = soakingTowel();
+  command::Scene scene = soakingTowel();
   scene.cloths.push_back(hangingTowel().cloths[0]);
   LiveScene live(scene);
   live.turnEffect(indexOf(live, "absorption"), false);
@@ -116,7 +117,7 @@ TEST(EffectSwitches, EachEffectThatIsOnTakesTimeAndTheyAreNoLongerThanTheStep) {
 }
 
 TEST(EffectSwitches, InTheDeformableWorldSpringsOfOursWaitForAReset) {
-  LiveScene live(hangingTowel(runner::WorldKind::deformable));
+  LiveScene live(hangingTowel(command::WorldKind::deformable));
   const std::size_t hooke = indexOf(live, "hooke_springs");
   live.turnEffect(hooke, true);
   EXPECT_TRUE(live.effects().list()[hooke].waitsForReset);
@@ -128,7 +129,7 @@ TEST(EffectSwitches, InTheDeformableWorldSpringsOfOursWaitForAReset) {
 }
 
 TEST(EffectSwitches, ScenesOfTheExamplesBeginWithTheirOwnEffects) {
-  const runner::Scene scene = runner::readScene(WETCLOTH_SOURCE_DIR "/tests/scenes/water_cycle.json");
+  const command::Scene scene = command::readScene(WETCLOTH_SOURCE_DIR "/tests/scenes/water_cycle.json");
   LiveScene live(scene);
   for (const auto& effect : live.effects().list()) {
     EXPECT_EQ(effect.isOn, effect.isInScene) << effect.key;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "tests/command/viewer/ViewerScene.h"
 
 #include <algorithm>
@@ -110,8 +111,8 @@ TEST(Grip, WhatIsNotFiniteIsIgnored) {
 }
 
 TEST(Picking, TakesTheNearestNodeOfTheFirstCloth) {
-  runner::Scene scene = hangingTowel();
-  runner::ClothScene front = scene.cloths[0];
+  command::Scene scene = hangingTowel();
+  command::ClothScene front = scene.cloths[0];
   std::get<wetcloth::ClothPatch>(front.shape).origin += btVector3(0, 0, 1);
   scene.cloths.push_back(front);
   LiveScene live(scene);
@@ -123,8 +124,8 @@ TEST(Picking, TakesTheNearestNodeOfTheFirstCloth) {
 }
 
 TEST(Picking, NothingBesideTheClothNorBehindABall) {
-  runner::Scene scene = hangingTowel();
-  scene.colliders = {runner::Sphere{btVector3(btScalar(0.5), btScalar(1.5), 2), 0.2}};
+  command::Scene scene = hangingTowel();
+  scene.colliders = {command::Sphere{btVector3(btScalar(0.5), btScalar(1.5), 2), 0.2}};
   LiveScene live(scene);
   EXPECT_FALSE(live.grab(rayAt(1.2, 1.5)));
   EXPECT_FALSE(live.grab(rayAt(0.5, 1.5)));

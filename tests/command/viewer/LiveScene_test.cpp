@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include "tests/command/viewer/ViewerScene.h"
 
 #include "command/run/StateHash.h"
@@ -10,8 +11,8 @@
 namespace {
 
 using namespace viewer_test;
-using runner::stateHash;
-using runner::WorldKind;
+using command::stateHash;
+using command::WorldKind;
 using viewer::LiveScene;
 using viewer::Side;
 
@@ -24,8 +25,8 @@ INSTANTIATE_TEST_SUITE_P(EachWorld, LiveSceneIn, allWorlds, worldName);
 }  // namespace
 
 TEST_P(LiveSceneIn, RunsAsTheSceneDoesWithoutIt) {
-  const runner::Scene scene = soakingTowel(GetParam());
-  runner::SceneWorld plainRun(scene);
+  const command::Scene scene = soakingTowel(GetParam());
+  command::SceneWorld plainRun(scene);
   LiveScene live(scene);
   for (int i = 0; i < 30; ++i) plainRun.step();
   run(live, 30);

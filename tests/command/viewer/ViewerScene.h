@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #pragma once
 
 #include "command/scene/ReadParameters.h"
@@ -10,12 +11,12 @@
 namespace viewer_test {
 
 /// A square towel that hangs by its upper edge, one metre wide, in the plane z = 0; dry, with no effect.
-inline runner::Scene hangingTowel(runner::WorldKind world = runner::WorldKind::softRigid) {
-  runner::Scene scene;
+inline command::Scene hangingTowel(command::WorldKind world = command::WorldKind::softRigid) {
+  command::Scene scene;
   scene.file = "towel.json";
   scene.name = "towel";
   scene.world = world;
-  runner::ClothScene cloth;
+  command::ClothScene cloth;
   wetcloth::ClothPatch patch;
   patch.columns = patch.rows = 9;
   patch.origin = btVector3(0, 2, 0);
@@ -30,12 +31,12 @@ inline runner::Scene hangingTowel(runner::WorldKind world = runner::WorldKind::s
 }
 
 template <class E>
-void give(runner::Scene& scene, const std::string& key, typename E::Parameters parameters = {}) {
-  scene.cloths[0].effects.push_back({key, runner::addEffect<E>(parameters)});
+void give(command::Scene& scene, const std::string& key, typename E::Parameters parameters = {}) {
+  scene.cloths[0].effects.push_back({key, command::addEffect<E>(parameters)});
 }
 
-inline runner::Scene soakingTowel(runner::WorldKind world = runner::WorldKind::softRigid) {
-  runner::Scene scene = hangingTowel(world);
+inline command::Scene soakingTowel(command::WorldKind world = command::WorldKind::softRigid) {
+  command::Scene scene = hangingTowel(world);
   give<wetcloth::Absorption>(scene, "absorption");
   wetcloth::Wind::Parameters wind;
   wind.velocity = btVector3(1, 0, 3);
@@ -64,13 +65,13 @@ inline const viewer::EffectSwitches::Switch& switchOf(const viewer::LiveScene& l
 inline viewer::Ray rayAt(double x, double y) { return {btVector3(btScalar(x), btScalar(y), 5), btVector3(0, 0, -1)}; }
 
 /// Each of Bullet's three worlds.
-class InEachWorld : public testing::TestWithParam<runner::WorldKind> {};
+class InEachWorld : public testing::TestWithParam<command::WorldKind> {};
 
 inline const auto allWorlds =
-    testing::Values(runner::WorldKind::softRigid, runner::WorldKind::softMultiBody, runner::WorldKind::deformable);
+    testing::Values(command::WorldKind::softRigid, command::WorldKind::softMultiBody, command::WorldKind::deformable);
 
-inline std::string worldName(const testing::TestParamInfo<runner::WorldKind>& info) {
-  return runner::nameOf(info.param);
+inline std::string worldName(const testing::TestParamInfo<command::WorldKind>& info) {
+  return command::nameOf(info.param);
 }
 
 }  // namespace viewer_test

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Zlib
 """The window of `wetcloth view`, on a display of its own (Xvfb), with real keys and a real mouse (xdotool).
 
     window_test.py WETCLOTH SCENES_DIRECTORY

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 // Lets a soft body fall for a moment: wrong headers, precision or libraries show here.
 #include <BulletSoftBody/btSoftBody.h>
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Zlib
 #include <bullet_wetcloth/bullet_wetcloth.h>
 
 #include <cstdio>
