@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/audit/SweptFaces.h"
 
-#include "bullet_wetcloth/bullet/NodeIndex.h"
+#include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <cmath>
@@ -141,7 +141,7 @@ void SweptFaces::buildTree(int* first, int* last, const btSoftBody& body, const 
 void SweptFaces::addPatch(const int* first, const int* last, const btSoftBody& body) {
   for (; first != last; ++first) {
     const btSoftBody::Face& face = body.m_faces[*first];
-    const auto nodeAt = [&](int corner) { return indexOf(body, face.m_n[corner]); };
+    const auto nodeAt = [&](int corner) { return nodeIndex(body, face.m_n[corner]); };
     const int index = static_cast<int>(m_faces.nodes.size());
     m_faces.nodes.push_back({{nodeAt(0), nodeAt(1), nodeAt(2)}, index});
   }

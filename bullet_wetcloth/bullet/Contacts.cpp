@@ -3,7 +3,7 @@
 
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/WetClothWorld.h"
-#include "bullet_wetcloth/bullet/IndexIn.h"
+#include "bullet_wetcloth/bullet/Index.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -26,7 +26,7 @@ bool facePoint(const btSoftBody& body, const btSoftBody::Face& face, const btVec
   point.count = 3;
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    point.nodes[k] = indexIn<btSoftBody::Node>(body.m_nodes, face.m_n[k]);
+    point.nodes[k] = findIndex<btSoftBody::Node>(body.m_nodes, face.m_n[k]);
     point.weights[k] = std::max(0.0, static_cast<double>(weights[static_cast<int>(k)]));
     sum += point.weights[k];
     if (point.nodes[k] < 0) return false;
@@ -111,17 +111,17 @@ bool RigidContacts::read(int i, RigidContact& contact) {
   contact.face = -1;
   if (!m_deformable) {
     btSoftBody::RContact& entry = m_body.m_rcontacts[i];
-    contact.point = nodePoint(indexIn<btSoftBody::Node>(m_body.m_nodes, entry.m_node));
+    contact.point = nodePoint(findIndex<btSoftBody::Node>(m_body.m_nodes, entry.m_node));
     contact.positionBased = &entry;
     found = &entry.m_cti;
   } else if (i < nodeContacts) {
     btSoftBody::DeformableNodeRigidContact& entry = m_body.m_nodeRigidContacts[i];
-    contact.point = nodePoint(indexIn<btSoftBody::Node>(m_body.m_nodes, entry.m_node));
+    contact.point = nodePoint(findIndex<btSoftBody::Node>(m_body.m_nodes, entry.m_node));
     contact.deformable = &entry;
     found = &entry.m_cti;
   } else {
     btSoftBody::DeformableFaceRigidContact& entry = m_body.m_faceRigidContacts[i - nodeContacts];
-    contact.face = indexIn<btSoftBody::Face>(m_body.m_faces, entry.m_face);
+    contact.face = findIndex<btSoftBody::Face>(m_body.m_faces, entry.m_face);
     if (contact.face < 0) return false;
     if (!facePoint(m_body, m_body.m_faces[contact.face], entry.m_bary, contact.point)) return false;
     contact.deformable = &entry;
@@ -143,8 +143,8 @@ int FaceContacts::size() const {
 
 bool FaceContacts::read(int i, FaceContact& contact) {
   const auto fill = [&](const auto& entry, const btVector3& weights) {
-    contact.node = indexIn<btSoftBody::Node>(m_nodesOf.m_nodes, entry.m_node);
-    contact.face = indexIn<btSoftBody::Face>(m_facesOf.m_faces, entry.m_face);
+    contact.node = findIndex<btSoftBody::Node>(m_nodesOf.m_nodes, entry.m_node);
+    contact.face = findIndex<btSoftBody::Face>(m_facesOf.m_faces, entry.m_face);
     contact.normal = entry.m_normal;
     return contact.node >= 0 && contact.face >= 0 &&
            facePoint(m_facesOf, m_facesOf.m_faces[contact.face], weights, contact.point);

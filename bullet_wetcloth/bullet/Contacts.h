@@ -22,8 +22,8 @@ struct ContactPoint {
   std::array<double, 3> weights = {1, 0, 0};
 };
 
-/// How far what a sleeping cloth touches may move before it is touched no more [m].
-constexpr btScalar kStirred = btScalar(1e-3);
+/// How far what a sleeping cloth touches may move while the cloth sleeps on [m].
+constexpr btScalar kContactMotionTolerance = btScalar(1e-3);
 
 /// A contact of a cloth with a rigid body, as Bullet lists it.
 struct RigidContact {

@@ -83,7 +83,8 @@ void halve(Pending& pending, const Interval& interval) {
 }  // namespace
 
 template <Pair pair>
-Suspicion firstSuspicion(const Relative<pair>& start, const Relative<pair>& end, const CheckSettings& settings) {
+Suspicion firstSuspicion(const PointDifferences<pair>& start, const PointDifferences<pair>& end,
+                         const CheckSettings& settings) {
   IntervalTest<pair> test(start, end, settings.minSeparation);
   Pending pending;
   for (int looked = 0; !pending.empty(); ++looked) {
@@ -105,9 +106,9 @@ Suspicion firstSuspicion(const Relative<pair>& start, const Relative<pair>& end,
   return {};
 }
 
-template Suspicion firstSuspicion(const Relative<Pair::vertexFace>&, const Relative<Pair::vertexFace>&,
+template Suspicion firstSuspicion(const PointDifferences<Pair::vertexFace>&, const PointDifferences<Pair::vertexFace>&,
                                   const CheckSettings&);
-template Suspicion firstSuspicion(const Relative<Pair::edgeEdge>&, const Relative<Pair::edgeEdge>&,
+template Suspicion firstSuspicion(const PointDifferences<Pair::edgeEdge>&, const PointDifferences<Pair::edgeEdge>&,
                                   const CheckSettings&);
 
 }  // namespace wetcloth::collision

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/collision/ContinuousCheck.h"
-#include "bullet_wetcloth/collision/Relative.h"
+#include "bullet_wetcloth/collision/PointDifferences.h"
 
 namespace wetcloth::collision {
 
@@ -16,6 +16,7 @@ struct Suspicion {
 /// Looks for the first contact between two times by excluding intervals (IntervalTest) and dividing the others, the
 /// earliest first. The largest component of the motion must be in [2^-100, 2^100].
 template <Pair pair>
-Suspicion firstSuspicion(const Relative<pair>& start, const Relative<pair>& end, const CheckSettings& settings);
+Suspicion firstSuspicion(const PointDifferences<pair>& start, const PointDifferences<pair>& end,
+                         const CheckSettings& settings);
 
 }  // namespace wetcloth::collision

@@ -7,7 +7,7 @@ namespace {
 /// Sign of a determinant at one time, or 0. 6 products, each rounded 5 times, their three factors wrong by 3.01 u of
 /// the magnitude each: 6 (5 + 3 * 3.01) = 84.2.
 template <Pair pair>
-int signOfVolume(const Relative<pair>& at, const Vector& magnitude) {
+int signOfVolume(const PointDifferences<pair>& at, const Vector& magnitude) {
   const double volume = at.vectors[0].dot(at.vectors[1].cross(at.vectors[2]));
   const double error = 85 * kRoundoff * magnitude[0] * magnitude[1] * magnitude[2] + kUnderflow;
   return (volume > error) - (volume < -error);
@@ -41,7 +41,7 @@ class AreaSign {
 };
 
 /// Along an axis, the coplanar point is inside the face when it sees the three edges turning one way.
-bool insideAllTheTime(const Relative<Pair::vertexFace>& first, const Relative<Pair::vertexFace>& last,
+bool insideAllTheTime(const PointDifferences<Pair::vertexFace>& first, const PointDifferences<Pair::vertexFace>& last,
                       const AreaSign& sign) {
   const auto& a = first.vectors;
   const auto& b = last.vectors;
@@ -50,7 +50,7 @@ bool insideAllTheTime(const Relative<Pair::vertexFace>& first, const Relative<Pa
 }
 
 /// Along an axis, two coplanar edges cross when each one's ends are on different sides of the other.
-bool insideAllTheTime(const Relative<Pair::edgeEdge>& first, const Relative<Pair::edgeEdge>& last,
+bool insideAllTheTime(const PointDifferences<Pair::edgeEdge>& first, const PointDifferences<Pair::edgeEdge>& last,
                       const AreaSign& sign) {
   const auto& a = first.vectors;
   const auto& b = last.vectors;
@@ -63,10 +63,10 @@ bool insideAllTheTime(const Relative<Pair::edgeEdge>& first, const Relative<Pair
 }  // namespace
 
 template <Pair pair>
-bool provedContact(const Relative<pair>& start, const Relative<pair>& end, double t0, double t1) {
+bool provedContact(const PointDifferences<pair>& start, const PointDifferences<pair>& end, double t0, double t1) {
   const Vector size = magnitude<pair>(start.vectors, end.vectors) * (1 + 0x1p-40);
-  const Relative<pair> first = blend(start, end, t0);
-  const Relative<pair> last = blend(start, end, t1);
+  const PointDifferences<pair> first = blend(start, end, t0);
+  const PointDifferences<pair> last = blend(start, end, t1);
   if (signOfVolume(first, size) * signOfVolume(last, size) != -1) return false;
   // The axis along which the figure is seen largest.
   const auto& v = first.vectors;
@@ -77,7 +77,9 @@ bool provedContact(const Relative<pair>& start, const Relative<pair>& end, doubl
   return insideAllTheTime(first, last, AreaSign(axis, size));
 }
 
-template bool provedContact(const Relative<Pair::vertexFace>&, const Relative<Pair::vertexFace>&, double, double);
-template bool provedContact(const Relative<Pair::edgeEdge>&, const Relative<Pair::edgeEdge>&, double, double);
+template bool provedContact(const PointDifferences<Pair::vertexFace>&, const PointDifferences<Pair::vertexFace>&,
+                            double, double);
+template bool provedContact(const PointDifferences<Pair::edgeEdge>&, const PointDifferences<Pair::edgeEdge>&, double,
+                            double);
 
 }  // namespace wetcloth::collision

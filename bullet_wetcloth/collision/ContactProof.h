@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "bullet_wetcloth/collision/Relative.h"
+#include "bullet_wetcloth/collision/PointDifferences.h"
 
 namespace wetcloth::collision {
 
@@ -11,6 +11,6 @@ namespace wetcloth::collision {
 ///
 /// The largest component of the motion must be in [2^-100, 2^100].
 template <Pair pair>
-bool provedContact(const Relative<pair>& start, const Relative<pair>& end, double t0, double t1);
+bool provedContact(const PointDifferences<pair>& start, const PointDifferences<pair>& end, double t0, double t1);
 
 }  // namespace wetcloth::collision

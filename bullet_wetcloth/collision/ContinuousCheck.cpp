@@ -7,7 +7,7 @@
 #include "bullet_wetcloth/collision/CubicCull.h"
 #include "bullet_wetcloth/collision/ExactContact.h"
 #include "bullet_wetcloth/collision/Nearest.h"
-#include "bullet_wetcloth/collision/Widen.h"
+#include "bullet_wetcloth/collision/ToDouble.h"
 
 #include <cmath>
 #include <limits>
@@ -55,14 +55,14 @@ Contact contactAt(double time) {
 /// The motion in a unit of length of its own, a power of two, in which its largest component is in [1/2, 1).
 template <Pair pair>
 struct Scaled {
-  Relative<pair> start;
-  Relative<pair> end;
+  PointDifferences<pair> start;
+  PointDifferences<pair> end;
   double minSeparation;
 
   void by(int exponent) {
     // Not by a factor: that of the smallest denormals is too large for a double.
     const auto scale = [exponent](double component) { return std::ldexp(component, exponent); };
-    for (Relative<pair>* at : {&start, &end}) {
+    for (PointDifferences<pair>* at : {&start, &end}) {
       for (Vector& vector : at->vectors) vector = vector.unaryExpr(scale);
     }
     minSeparation = std::ldexp(minSeparation, exponent);
@@ -77,7 +77,7 @@ class Answer {
       : m_query(query), m_tier(tier), m_settings(settings) {}
 
   Contact operator()() const {
-    Scaled<pair> motion = {relative<pair>(m_query.start), relative<pair>(m_query.end), m_settings.minSeparation};
+    Scaled<pair> motion = {differences<pair>(m_query.start), differences<pair>(m_query.end), m_settings.minSeparation};
     const double largest = magnitude<pair>(motion.start.vectors, motion.end.vectors).maxCoeff();
     if (!std::isfinite(largest)) return outOfRange();
     // What flushing took from the differences would be scaled up, beyond what the bounds have room for.
@@ -124,7 +124,7 @@ class Answer {
 
 template <Pair pair, class Scalar>
 Contact answerUnculled(const Query<Scalar>& query, Tier tier, const CheckSettings& settings) {
-  return isFinite(query) ? Answer<pair>(widen(query), tier, settings)() : contactAt(0);
+  return isFinite(query) ? Answer<pair>(toDouble(query), tier, settings)() : contactAt(0);
 }
 
 template <Pair pair, class Scalar>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/collision/CoplanarityCubic.h"
 
-#include "bullet_wetcloth/collision/Relative.h"
-#include "bullet_wetcloth/collision/Widen.h"
+#include "bullet_wetcloth/collision/PointDifferences.h"
+#include "bullet_wetcloth/collision/ToDouble.h"
 
 #include <cmath>
 #include <limits>
@@ -41,9 +41,9 @@ bool CoplanarityCubic::hasNoRoot() const {
 
 template <class Scalar>
 CoplanarityCubic coplanarityCubic(const Query<Scalar>& query) noexcept {
-  const Query<double>& wide = widen(query);
-  const auto start = relative<Pair::vertexFace>(wide.start);
-  const auto end = relative<Pair::vertexFace>(wide.end);
+  const Query<double>& wide = toDouble(query);
+  const auto start = differences<Pair::vertexFace>(wide.start);
+  const auto end = differences<Pair::vertexFace>(wide.end);
   const auto& a = start.vectors;
   const auto& b = end.vectors;
   const Vector mixed = a[1].cross(b[2]) + b[1].cross(a[2]);

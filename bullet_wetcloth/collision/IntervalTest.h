@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "bullet_wetcloth/collision/Relative.h"
+#include "bullet_wetcloth/collision/PointDifferences.h"
 
 #include <algorithm>
 
@@ -17,7 +17,7 @@ template <Pair pair>
 class IntervalTest {
  public:
   /// The motion at times 0 and 1, which must outlive this.
-  IntervalTest(const Relative<pair>& start, const Relative<pair>& end, double minSeparation)
+  IntervalTest(const PointDifferences<pair>& start, const PointDifferences<pair>& end, double minSeparation)
       : m_start(start),
         m_end(end),
         m_magnitude(magnitude<pair>(start.vectors, end.vectors)),
@@ -39,7 +39,7 @@ class IntervalTest {
   bool apartInLast(double fraction) const;
 
  private:
-  using Differences = Relative<pair>;
+  using Differences = PointDifferences<pair>;
 
   bool apartOnAnAxis() const;
   bool neverCoplanar();

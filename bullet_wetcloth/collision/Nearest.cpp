@@ -37,7 +37,7 @@ bool isSharp(const Vector& normal, double squaredSize) {
 }  // namespace
 
 template <>
-std::array<double, 2> nearest(const Relative<Pair::vertexFace>& at) {
+std::array<double, 2> nearest(const PointDifferences<Pair::vertexFace>& at) {
   const Vector(&v)[3] = at.vectors;  // the corners, seen from the point
   const Vector a = v[1] - v[0];
   const Vector b = v[2] - v[0];
@@ -62,7 +62,7 @@ std::array<double, 2> nearest(const Relative<Pair::vertexFace>& at) {
 }
 
 template <>
-std::array<double, 2> nearest(const Relative<Pair::edgeEdge>& at) {
+std::array<double, 2> nearest(const PointDifferences<Pair::edgeEdge>& at) {
   const Vector(&v)[5] = at.vectors;
   // Seen from p0: p1, p2 and p3.
   const Vector p0 = Vector::Zero();

@@ -213,7 +213,9 @@ bool Cling::wakes(const WetCloth& cloth, const Step&) const {
     if (!bond.object) continue;
     if (!objects.find(bond.object) || proxyNumberOf(*bond.object) != bond.proxy) return true;
     const btVector3 place = bond.object->getWorldTransform() * bond.anchor;
-    if ((place - cloth.body().m_nodes[static_cast<int>(i)].m_x).length2() > kStirred * kStirred) return true;
+    if ((place - cloth.body().m_nodes[static_cast<int>(i)].m_x).length2() >
+        kContactMotionTolerance * kContactMotionTolerance)
+      return true;
   }
   return false;
 }

@@ -45,7 +45,7 @@ bool isGone(const WetCloth& cloth, const RigidContact& contact) {
     place += cloth.body().m_nodes[contact.point.nodes[k]].m_x * static_cast<btScalar>(contact.point.weights[k]);
   }
   const btVector3 arm = place - contact.object->getWorldTransform().getOrigin();
-  return (arm - contact.deformable->m_c1).length2() > kStirred * kStirred;
+  return (arm - contact.deformable->m_c1).length2() > kContactMotionTolerance * kContactMotionTolerance;
 }
 
 // Its arrays are those of the body as it was when it was last looked at.

@@ -75,7 +75,7 @@ void Diffusion::attach(WetCloth& cloth) {
   m_potential.assign(m_flow->nodeCount(), 0);
   m_fluxes.assign(m_flow->edges().size(), 0);
   m_substepFluxes.assign(m_flow->edges().size(), 0);
-  m_settling.restart();
+  m_steadyState.restart();
 }
 
 // How far each node lies along the warp. A node made by a cut lies where its neighbours do.
@@ -92,8 +92,8 @@ void Diffusion::rememberWarp(WetCloth& cloth) {
     double sum = 0;
     int count = 0;
     for (const int neighbour : cloth.restMesh().neighbours(i)) {
-      if (index(neighbour) >= i) continue;
-      sum += m_warpCoordinate[index(neighbour)];
+      if (toSize(neighbour) >= i) continue;
+      sum += m_warpCoordinate[toSize(neighbour)];
       ++count;
     }
     m_warpCoordinate[i] = count > 0 ? sum / count : 0;
@@ -101,7 +101,7 @@ void Diffusion::rememberWarp(WetCloth& cloth) {
 }
 
 void Diffusion::apply(WetCloth& cloth, const Step& step) {
-  if (m_settling.isSettled(cloth, step)) return;
+  if (m_steadyState.isReached(cloth, step)) return;
   if (m_flow->load(cloth.water())) {
     m_solver->forgetFactor();
     m_longestSubstep = longestExplicitStep(m_flow->edges(), m_flow->capacities());
@@ -121,7 +121,7 @@ void Diffusion::apply(WetCloth& cloth, const Step& step) {
   }
   m_flow->commit(cloth, m_fluxes);
   m_nodesVisited += static_cast<long long>(m_flow->nodeCount());
-  m_settling.note(cloth, step, m_flow->moved());
+  m_steadyState.note(cloth, step, m_flow->moved());
 }
 
 void Diffusion::setPotential() {
@@ -145,7 +145,7 @@ void Diffusion::flowInSubsteps(double dt) {
 void Diffusion::transferState(StateArchive& archive) {
   m_flow->transferState(archive);
   m_solver->transferState(archive, m_flow->edges(), m_flow->capacities());
-  m_settling.transferState(archive);
+  m_steadyState.transferState(archive);
   archive.value(m_longestSubstep, m_nodesVisited, m_substeps);
 }
 

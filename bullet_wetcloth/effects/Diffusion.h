@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Effect.h"
-#include "bullet_wetcloth/numerics/Settling.h"
+#include "bullet_wetcloth/numerics/SteadyState.h"
 
 #include <LinearMath/btVector3.h>
 
@@ -82,7 +82,7 @@ class Diffusion : public Effect {
   Parameters m_parameters;
   std::unique_ptr<EdgeFlow> m_flow;
   std::unique_ptr<DiffusionSolver> m_solver;  // behind a pointer, so that Eigen stays out of this header
-  Settling m_settling;
+  SteadyState m_steadyState;
   std::vector<double> m_warpCoordinate;  // of each node, in the shape in which the effect was added [m]
   std::vector<double> m_potential;
   std::vector<double> m_fluxes;  // of each edge [kg]

@@ -31,7 +31,7 @@ void Dripping::setHoldingSaturation(double holdingSaturation) {
   requireFraction("Dripping.holdingSaturation", holdingSaturation);
   m_parameters.holdingSaturation = holdingSaturation;
   m_hasNoExcess = false;
-  m_settling.restart();
+  m_steadyState.restart();
 }
 
 void Dripping::setOnDrip(std::function<void(const Drip&)> onDrip) { m_parameters.onDrip = std::move(onDrip); }
@@ -48,7 +48,7 @@ void Dripping::attach(WetCloth& cloth) {
   for (std::size_t i = nodes; i < m_pending.size(); ++i) m_pending[0] += m_pending[i];
   m_pending.resize(nodes, 0);
   m_hasNoExcess = false;
-  m_settling.restart();
+  m_steadyState.restart();
 }
 
 void Dripping::apply(WetCloth& cloth, const Step& step) {
@@ -56,7 +56,7 @@ void Dripping::apply(WetCloth& cloth, const Step& step) {
   if (!(gravity > 0 && std::isfinite(gravity))) return;
   Water& water = cloth.water();
   if (m_hasNoExcess && m_revisionWithoutExcess == water.revision()) return;
-  if (m_settling.isSettled(cloth, step)) return;
+  if (m_steadyState.isReached(cloth, step)) return;
 
   const btVector3 down = step.gravity / gravity;
   bool hasExcess = false;
@@ -74,7 +74,7 @@ void Dripping::apply(WetCloth& cloth, const Step& step) {
   m_hasNoExcess = !hasExcess;
   m_revisionWithoutExcess = water.revision();
   // However slowly a node drips, it drips on: only when none does may the cloth's shape decide when to look again.
-  m_settling.note(cloth, step, drips ? water.totalCapacity() : 0);
+  m_steadyState.note(cloth, step, drips ? water.totalCapacity() : 0);
 }
 
 double Dripping::pendingMass() const {
@@ -120,7 +120,7 @@ void Dripping::transferState(StateArchive& archive) {
   archive.array(m_carry);
   archive.array(m_pending);
   m_dripped.transferState(archive);
-  m_settling.transferState(archive);
+  m_steadyState.transferState(archive);
   archive.value(m_drops, m_revisionWithoutExcess, m_hasNoExcess, m_nodesVisited);
 }
 

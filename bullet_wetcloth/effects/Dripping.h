@@ -3,7 +3,7 @@
 
 #include "bullet_wetcloth/Effect.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
-#include "bullet_wetcloth/numerics/Settling.h"
+#include "bullet_wetcloth/numerics/SteadyState.h"
 #include "bullet_wetcloth/water/Water.h"
 
 #include <LinearMath/btVector3.h>
@@ -94,7 +94,7 @@ class Dripping : public Effect {
   std::vector<double> m_pending;  // what left each node since its last drop [kg]
   CompensatedSum m_dripped;
   long long m_drops = 0;
-  Settling m_settling{Settling::DependsOn::waterAndShape};
+  SteadyState m_steadyState{SteadyState::DependsOn::waterAndShape};
   unsigned long long m_revisionWithoutExcess = 0;
   bool m_hasNoExcess = false;
   long long m_nodesVisited = 0;

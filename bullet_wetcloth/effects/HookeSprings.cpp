@@ -4,7 +4,6 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/bullet/Index.h"
-#include "bullet_wetcloth/bullet/NodeIndex.h"
 #include "bullet_wetcloth/numerics/SpringSolver.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -66,8 +65,8 @@ void HookeSprings::attach(WetCloth& cloth) {
   m_springs.resize(links);
   for (std::size_t k = 0; k < links; ++k) {
     const btSoftBody::Link& link = body.m_links[static_cast<int>(k)];
-    m_springs[k].a = indexOf(body, link.m_n[0]);
-    m_springs[k].b = indexOf(body, link.m_n[1]);
+    m_springs[k].a = nodeIndex(body, link.m_n[0]);
+    m_springs[k].b = nodeIndex(body, link.m_n[1]);
     m_springs[k].stiffness = stiffnessOf(link, k);
   }
   m_stiffnessRevision = 0;
@@ -182,7 +181,7 @@ void forEachAnchor(btSoftBody& body, Visit visit) {
 // ever carry that one node's momentum, and the cloth would hang far too low.
 void HookeSprings::followAnchors(btSoftBody& body, const Step& step) {
   forEachAnchor(body, [&](const AnchorPoint& anchor) {
-    SpringNode& state = m_nodes[index(indexOf(body, anchor.node))];
+    SpringNode& state = m_nodes[toSize(nodeIndex(body, anchor.node))];
     const btVector3 target = anchor.rigid->getCenterOfMassPosition() + anchor.arm;
     const btVector3 velocity = anchor.rigid->getVelocityInLocalPoint(anchor.arm);
     state.isFixed = true;
@@ -197,7 +196,7 @@ void HookeSprings::followAnchors(btSoftBody& body, const Step& step) {
 void HookeSprings::pullAnchors(btSoftBody& body, const Step& step) {
   forEachAnchor(body, [&](const AnchorPoint& anchor) {
     if (anchor.rigid->isStaticOrKinematicObject()) return;
-    const std::array<double, 3> pull = m_solver->springForce(m_springs, index(indexOf(body, anchor.node)));
+    const std::array<double, 3> pull = m_solver->springForce(m_springs, toSize(nodeIndex(body, anchor.node)));
     const btVector3 force(static_cast<btScalar>(pull[0]), static_cast<btScalar>(pull[1]),
                           static_cast<btScalar>(pull[2]));
     anchor.rigid->activate();

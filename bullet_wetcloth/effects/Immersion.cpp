@@ -44,7 +44,7 @@ void Immersion::attach(WetCloth& cloth) {
   if (firstTime) requireSurface("Immersion.surface", m_parameters.surface, cloth.body());
   m_uptake.reset(cloth.water().size());
   m_timeConstant = cloth.fabric().timeConstant;
-  m_settling.restart();
+  m_steadyState.restart();
   m_isFull = false;
 }
 
@@ -56,14 +56,14 @@ void Immersion::apply(WetCloth& cloth, const Step& step) {
 void Immersion::noticeSurface(const std::optional<WaterSurface>& surface) {
   if (isSame(surface, m_surface)) return;
   m_surface = surface;
-  m_settling.restart();
+  m_steadyState.restart();
 }
 
 bool Immersion::isIdle(const WetCloth& cloth, const Step& step) {
   if (m_isFull && m_fullRevision == cloth.water().revision()) return true;
-  if (!m_settling.isSettled(cloth, step)) return false;
+  if (!m_steadyState.isReached(cloth, step)) return false;
   if (reach(cloth.body()) < m_reachLimit) return true;
-  m_settling.restart();
+  m_steadyState.restart();
   return false;
 }
 
@@ -93,7 +93,7 @@ void Immersion::soak(WetCloth& cloth, const Step& step) {
   m_fullRevision = water.revision();
   m_reachLimit = isWet ? kInfinity : reach(cloth.body()) + clearance / 4;
   // An exponential that has slowed down is not yet at its end: what counts is whether anything is left to soak.
-  m_settling.note(cloth, step, isSoaking ? water.totalCapacity() : 0);
+  m_steadyState.note(cloth, step, isSoaking ? water.totalCapacity() : 0);
 }
 
 // Depth of the lowest corner of the body's bounds. They are those of the positions that Bullet predicted for the last
@@ -106,7 +106,7 @@ double Immersion::reach(const btSoftBody& body) const {
 
 void Immersion::transferState(StateArchive& archive) {
   m_uptake.transferState(archive);
-  m_settling.transferState(archive);
+  m_steadyState.transferState(archive);
   archive.optional(m_surface, [&](WaterSurface& surface) { surface.transferState(archive); });
   archive.value(m_reachLimit, m_isFull, m_fullRevision, m_nodesVisited);
 }

@@ -4,7 +4,7 @@
 #include "bullet_wetcloth/Effect.h"
 #include "bullet_wetcloth/effects/WaterSurface.h"
 #include "bullet_wetcloth/numerics/NodeUptake.h"
-#include "bullet_wetcloth/numerics/Settling.h"
+#include "bullet_wetcloth/numerics/SteadyState.h"
 
 #include <optional>
 
@@ -21,7 +21,7 @@ double immersionShare(double depth, double dt, double timeConstant);
 ///
 /// Idles while every node is full, and once nothing has been left to soak for 64 steps: until the surface, the
 /// cloth's water or its shape changes. A shape that sinks towards the surface is noticed before it is there, and any
-/// other change as Settling says.
+/// other change as SteadyState says.
 class Immersion : public Effect {
  public:
   struct Parameters {
@@ -55,7 +55,7 @@ class Immersion : public Effect {
 
   Parameters m_parameters;
   NodeUptake m_uptake;
-  Settling m_settling{Settling::DependsOn::waterAndShape};
+  SteadyState m_steadyState{SteadyState::DependsOn::waterAndShape};
   double m_timeConstant = 0;
   std::optional<WaterSurface> m_surface;  // in the last step
   double m_reachLimit = 0;                // depth of the body's bounds at which an idle cloth above is looked at [m]

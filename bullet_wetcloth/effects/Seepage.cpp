@@ -56,18 +56,18 @@ void Seepage::attach(WetCloth& cloth) {
   m_flow->reset(cloth.restMesh(), delaunayWeights(measuredTriangles(cloth.restMesh())));
   for (auto* array : {&m_depths, &m_conductivity, &m_outflow}) array->assign(m_flow->nodeCount(), 0);
   for (auto* array : {&m_fluxes, &m_substepFluxes}) array->assign(m_flow->edges().size(), 0);
-  m_settling.restart();
+  m_steadyState.restart();
 }
 
 void Seepage::apply(WetCloth& cloth, const Step& step) {
-  if (m_settling.isSettled(cloth, step)) return;
+  if (m_steadyState.isReached(cloth, step)) return;
   m_flow->load(cloth.water());
   measureDepths(cloth, step);
   const double speed = m_parameters.speed * static_cast<double>(step.gravity.length()) / kEarthGravity;
   flow(std::isfinite(speed) ? speed : 0, step.dt);
   m_flow->commit(cloth, m_fluxes);
   m_nodesVisited += static_cast<long long>(m_flow->nodeCount());
-  m_settling.note(cloth, step, m_flow->moved());
+  m_steadyState.note(cloth, step, m_flow->moved());
 }
 
 void Seepage::measureDepths(const WetCloth& cloth, const Step& step) {
@@ -85,8 +85,8 @@ void Seepage::measureDepths(const WetCloth& cloth, const Step& step) {
 double Seepage::substepCount(double speed, double dt) {
   std::fill(m_outflow.begin(), m_outflow.end(), 0);
   for (const WeightedEdge& edge : m_flow->edges()) {
-    const double drop = m_depths[index(edge.b)] - m_depths[index(edge.a)];
-    m_outflow[index(drop > 0 ? edge.a : edge.b)] += edge.weight * std::fabs(drop);
+    const double drop = m_depths[toSize(edge.b)] - m_depths[toSize(edge.a)];
+    m_outflow[toSize(drop > 0 ? edge.a : edge.b)] += edge.weight * std::fabs(drop);
   }
   double fastest = 0;
   for (std::size_t i = 0; i < m_outflow.size(); ++i) {
@@ -104,8 +104,8 @@ void Seepage::flow(double speed, double dt) {
       m_conductivity[i] = relativeConductivity(m_flow->saturation(i), m_parameters.exponent);
     }
     for (std::size_t e = 0; e < edges.size(); ++e) {
-      const std::size_t a = index(edges[e].a);
-      const std::size_t b = index(edges[e].b);
+      const std::size_t a = toSize(edges[e].a);
+      const std::size_t b = toSize(edges[e].b);
       const double flow =
           upwindFlow(edges[e].weight, speed, m_conductivity[a], m_conductivity[b], m_depths[b] - m_depths[a]);
       m_substepFluxes[e] = dt / count * flow;
@@ -118,7 +118,7 @@ void Seepage::flow(double speed, double dt) {
 
 void Seepage::transferState(StateArchive& archive) {
   m_flow->transferState(archive);
-  m_settling.transferState(archive);
+  m_steadyState.transferState(archive);
   archive.value(m_nodesVisited, m_substeps);
 }
 

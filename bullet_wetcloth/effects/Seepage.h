@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Effect.h"
-#include "bullet_wetcloth/numerics/Settling.h"
+#include "bullet_wetcloth/numerics/SteadyState.h"
 
 #include <memory>
 #include <vector>
@@ -64,7 +64,7 @@ class Seepage : public Effect {
 
   Parameters m_parameters;
   std::unique_ptr<EdgeFlow> m_flow;
-  Settling m_settling{Settling::DependsOn::waterAndShape};
+  SteadyState m_steadyState{SteadyState::DependsOn::waterAndShape};
   std::vector<double> m_depths;         // of nodes along gravity [m]
   std::vector<double> m_conductivity;   // of nodes, relative
   std::vector<double> m_outflow;        // of nodes, of saturated cloth at a speed of 1 m/s [kg/s]

@@ -63,35 +63,35 @@ Splash::Splash(Parameters parameters) : m_parameters(parameters) {
 void Splash::setRegion(const Region& region) {
   requireRegion(region);
   m_parameters.region = region;
-  m_settling.restart();
+  m_steadyState.restart();
 }
 
 void Splash::setVelocity(const btVector3& velocity) {
   requireVelocity(velocity);
   m_parameters.velocity = velocity;
-  m_settling.restart();
+  m_steadyState.restart();
 }
 
 void Splash::setFlux(double flux) {
   requireNotNegative("Splash.flux", flux);
   m_parameters.flux = flux;
-  m_settling.restart();
+  m_steadyState.restart();
 }
 
 void Splash::attach(WetCloth& cloth) {
   m_catcher.attach("Splash", cloth.body());
-  m_settling.restart();
+  m_steadyState.restart();
 }
 
 void Splash::apply(WetCloth& cloth, const Step& step) {
   m_catcher.skip();
-  if (m_parameters.flux == 0 || m_settling.isSettled(cloth, step)) return;
+  if (m_parameters.flux == 0 || m_steadyState.isReached(cloth, step)) return;
   m_catcher.begin(cloth.body());
   std::visit([&](const auto& region) { catchDrops(region, step.dt); }, m_parameters.region);
   m_catcher.deliver(cloth.water(), flow() * step.dt);
   m_nodesVisited += static_cast<long long>(m_catcher.positions().size());
   // Drops that all run off move no water, but go on pushing.
-  m_settling.note(cloth, step, caught() > 0 ? cloth.water().totalCapacity() : 0);
+  m_steadyState.note(cloth, step, caught() > 0 ? cloth.water().totalCapacity() : 0);
 }
 
 bool Splash::wakes(const WetCloth& /*cloth*/, const Step& /*step*/) const { return caught() > 0; }
@@ -123,7 +123,7 @@ double Splash::flow() const {
 
 void Splash::transferState(StateArchive& archive) {
   m_catcher.transferState(archive);
-  m_settling.transferState(archive);
+  m_steadyState.transferState(archive);
   archive.value(m_nodesVisited);
 }
 

@@ -3,7 +3,7 @@
 
 #include "bullet_wetcloth/Effect.h"
 #include "bullet_wetcloth/numerics/DropCatcher.h"
-#include "bullet_wetcloth/numerics/Settling.h"
+#include "bullet_wetcloth/numerics/SteadyState.h"
 
 #include <variant>
 
@@ -25,7 +25,7 @@ double coneFlow(double halfAngle, double flux, double reach);
 /// the water carries: what would be more is shared out in proportion.
 ///
 /// Idles while the flux is 0, and once nothing has been struck for 64 steps: until the region or the cloth's shape
-/// changes (Settling).
+/// changes (SteadyState).
 class Splash : public Effect {
  public:
   /// A stream of the same flux and velocity everywhere; it carries pi radius^2 flux.
@@ -79,7 +79,7 @@ class Splash : public Effect {
 
   Parameters m_parameters;
   DropCatcher m_catcher;
-  Settling m_settling{Settling::DependsOn::waterAndShape};
+  SteadyState m_steadyState{SteadyState::DependsOn::waterAndShape};
   long long m_nodesVisited = 0;
 };
 

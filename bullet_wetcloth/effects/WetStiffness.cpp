@@ -4,7 +4,6 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/bullet/Index.h"
-#include "bullet_wetcloth/bullet/NodeIndex.h"
 #include "bullet_wetcloth/effects/HookeSprings.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -128,7 +127,7 @@ void WetStiffness::damp(WetCloth& cloth) {
   const bool massesAreStale = water.movedSinceCommit();
   const auto inverseMassOf = [&](const btSoftBody::Node& node) {
     if (!massesAreStale || node.m_im == 0) return node.m_im;
-    return static_cast<btScalar>(1 / water.totalMass(index(indexOf(body, &node))));
+    return static_cast<btScalar>(1 / water.totalMass(toSize(nodeIndex(body, &node))));
   };
   for (std::size_t k = 0; k < m_shares.size(); ++k) {
     if (m_shares[k] == 0) continue;

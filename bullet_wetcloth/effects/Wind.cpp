@@ -3,7 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
-#include "bullet_wetcloth/bullet/NodeIndex.h"
+#include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/numerics/FluidResistance.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 #include "bullet_wetcloth/water/DryMass.h"
@@ -104,7 +104,7 @@ void Wind::attach(WetCloth& cloth) {
   m_triangles.resize(static_cast<std::size_t>(body.m_faces.size()));
   for (std::size_t f = 0; f < m_triangles.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
-      m_triangles[f][k] = indexOf(body, body.m_faces[static_cast<int>(f)].m_n[k]);
+      m_triangles[f][k] = nodeIndex(body, body.m_faces[static_cast<int>(f)].m_n[k]);
     }
   }
   const std::vector<double> areas = nodeAreas(body);

@@ -90,8 +90,8 @@ void Triangulation::addEdges(std::vector<Side>& sides) {
     Edge edge = {sides[first].a, sides[first].b, 0, 0, {-1, -1}};
     for (last = first; last < sides.size() && ends(sides[last]) == ends(sides[first]); ++last) {
       const Side& side = sides[last];
-      m_faces[index(side.face)].edges[side.corner] = static_cast<int>(m_edges.size());
-      if (edge.faceCount < 2) edge.faces[index(edge.faceCount)] = side.face;
+      m_faces[toSize(side.face)].edges[side.corner] = static_cast<int>(m_edges.size());
+      if (edge.faceCount < 2) edge.faces[toSize(edge.faceCount)] = side.face;
       ++edge.faceCount;
       edge.length += side.length;
     }
@@ -102,9 +102,9 @@ void Triangulation::addEdges(std::vector<Side>& sides) {
 
 // 0 when the triangle is degenerate.
 double Triangulation::doubleArea(const Face& face) const {
-  const double a = m_edges[index(face.edges[0])].length;
-  const double b = m_edges[index(face.edges[1])].length;
-  const double c = m_edges[index(face.edges[2])].length;
+  const double a = m_edges[toSize(face.edges[0])].length;
+  const double b = m_edges[toSize(face.edges[1])].length;
+  const double c = m_edges[toSize(face.edges[2])].length;
   const double area = triangleArea(a, b, c);
   const double longest = std::max({a, b, c});
   return area > kDegenerate * longest * longest ? 2 * area : 0;
@@ -112,11 +112,11 @@ double Triangulation::doubleArea(const Face& face) const {
 
 // Of the angle opposite the edge. In a triangle of no area it is infinite or, for `ofNoArea` 0, of no account.
 double Triangulation::cotangent(int face, int edge, double ofNoArea) const {
-  const Face& f = m_faces[index(face)];
+  const Face& f = m_faces[toSize(face)];
   const std::size_t k = cornerOpposite(face, edge);
-  const double opposite = m_edges[index(edge)].length;
-  const double left = m_edges[index(f.edges[(k + 1) % 3])].length;
-  const double right = m_edges[index(f.edges[(k + 2) % 3])].length;
+  const double opposite = m_edges[toSize(edge)].length;
+  const double left = m_edges[toSize(f.edges[(k + 1) % 3])].length;
+  const double right = m_edges[toSize(f.edges[(k + 2) % 3])].length;
   // Twice the product of the sides at the corner and the angle's cosine.
   const double cosine = left * left + (right - opposite) * (right + opposite);
   const double area = doubleArea(f);
@@ -125,7 +125,7 @@ double Triangulation::cotangent(int face, int edge, double ofNoArea) const {
 }
 
 bool Triangulation::canFlip(int edge) const {
-  const Edge& e = m_edges[index(edge)];
+  const Edge& e = m_edges[toSize(edge)];
   if (e.faceCount != 2 || !(e.length > 0)) return false;
   const double sum = cotangent(e.faces[0], edge, kInfinite) + cotangent(e.faces[1], edge, kInfinite);
   return sum < -kCotangentRounding;  // false, too, between two triangles of no area
@@ -133,11 +133,11 @@ bool Triangulation::canFlip(int edge) const {
 
 // Turns the diagonal ij of the quadrilateral i l j k into kl.
 bool Triangulation::flip(int edge) {
-  Edge& diagonal = m_edges[index(edge)];
+  Edge& diagonal = m_edges[toSize(edge)];
   const int first = diagonal.faces[0];
   const int second = diagonal.faces[1];
-  Face& f = m_faces[index(first)];
-  Face& g = m_faces[index(second)];
+  Face& f = m_faces[toSize(first)];
+  Face& g = m_faces[toSize(second)];
   const std::size_t cornerF = cornerOpposite(first, edge);
   const std::size_t cornerG = cornerOpposite(second, edge);
   const int k = f.nodes[cornerF];
@@ -152,8 +152,8 @@ bool Triangulation::flip(int edge) {
   const int il = g.edges[(cornerG + (isAlike ? 2 : 1)) % 3];
 
   const auto along = [&](int toI, int toJ) {  // ij, from i
-    const double fromI = m_edges[index(toI)].length;
-    const double fromJ = m_edges[index(toJ)].length;
+    const double fromI = m_edges[toSize(toI)].length;
+    const double fromJ = m_edges[toSize(toJ)].length;
     return (diagonal.length + (fromI - fromJ) * ((fromI + fromJ) / diagonal.length)) / 2;
   };
   const double height = (doubleArea(f) + doubleArea(g)) / diagonal.length;
@@ -171,12 +171,12 @@ bool Triangulation::flip(int edge) {
 }
 
 std::size_t Triangulation::cornerOpposite(int face, int edge) const {
-  const auto& edges = m_faces[index(face)].edges;
+  const auto& edges = m_faces[toSize(face)].edges;
   return edges[0] == edge ? 0 : (edges[1] == edge ? 1 : 2);
 }
 
 void Triangulation::replaceFace(int edge, int from, int to) {
-  auto& faces = m_edges[index(edge)].faces;
+  auto& faces = m_edges[toSize(edge)].faces;
   std::replace(faces.begin(), faces.end(), from, to);
 }
 
@@ -188,13 +188,13 @@ void Triangulation::makeDelaunay() {
   while (!pending.empty() && flips < kFlipsPerEdge * m_edges.size()) {
     const int edge = pending.back();
     pending.pop_back();
-    isPending[index(edge)] = false;
+    isPending[toSize(edge)] = false;
     if (!canFlip(edge) || !flip(edge)) continue;
     ++flips;
-    for (const int face : m_edges[index(edge)].faces) {
-      for (const int other : m_faces[index(face)].edges) {
-        if (other == edge || isPending[index(other)]) continue;
-        isPending[index(other)] = true;
+    for (const int face : m_edges[toSize(edge)].faces) {
+      for (const int other : m_faces[toSize(face)].edges) {
+        if (other == edge || isPending[toSize(other)]) continue;
+        isPending[toSize(other)] = true;
         pending.push_back(other);
       }
     }
@@ -204,7 +204,7 @@ void Triangulation::makeDelaunay() {
 std::vector<WeightedEdge> Triangulation::weights() const {
   std::vector<double> cotangents(m_edges.size(), 0);
   for (std::size_t f = 0; f < m_faces.size(); ++f) {
-    for (const int edge : m_faces[f].edges) cotangents[index(edge)] += cotangent(static_cast<int>(f), edge, 0);
+    for (const int edge : m_faces[f].edges) cotangents[toSize(edge)] += cotangent(static_cast<int>(f), edge, 0);
   }
   std::vector<WeightedEdge> edges;
   edges.reserve(m_edges.size());
@@ -232,7 +232,7 @@ std::vector<WeightedEdge> merged(std::vector<WeightedEdge> edges) {
   return result;
 }
 
-double lengthOf(const RestMesh& mesh, int edge) { return edge >= 0 ? mesh.edges()[index(edge)].length : 0; }
+double lengthOf(const RestMesh& mesh, int edge) { return edge >= 0 ? mesh.edges()[toSize(edge)].length : 0; }
 
 // The triangle in its plane: node 0 at the origin, node 1 on the first axis.
 std::array<std::array<double, 2>, 3> layOut(const MeasuredTriangle& triangle) {
@@ -263,9 +263,9 @@ std::vector<MeasuredTriangle> orthotropicTriangles(const RestMesh& mesh, const s
   const double mean = std::sqrt(warpDiffusivity) * std::sqrt(weftDiffusivity);
   for (MeasuredTriangle& triangle : triangles) {
     const auto corners = layOut(triangle);
-    const double u = warpCoordinate[index(triangle.nodes[0])];
-    const double u1 = warpCoordinate[index(triangle.nodes[1])] - u;
-    const double u2 = warpCoordinate[index(triangle.nodes[2])] - u;
+    const double u = warpCoordinate[toSize(triangle.nodes[0])];
+    const double u1 = warpCoordinate[toSize(triangle.nodes[1])] - u;
+    const double u2 = warpCoordinate[toSize(triangle.nodes[2])] - u;
     // The gradient, times base and height.
     const double warpX = u1 * corners[2][1];
     const double warpY = u2 * corners[1][0] - u1 * corners[2][0];

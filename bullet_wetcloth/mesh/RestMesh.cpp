@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/mesh/RestMesh.h"
 
-#include "bullet_wetcloth/bullet/NodeIndex.h"
+#include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/mesh/TriangleArea.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -35,7 +35,7 @@ void RestMesh::findEdges(const btSoftBody& body) {
       const btSoftBody::Node* from = corners[k];
       const btSoftBody::Node* to = corners[(k + 1) % 3];
       if (from == to) continue;
-      const std::pair<int, int> sorted = std::minmax({indexOf(body, from), indexOf(body, to)});
+      const std::pair<int, int> sorted = std::minmax({nodeIndex(body, from), nodeIndex(body, to)});
       m_edges.push_back({sorted.first, sorted.second, static_cast<double>((to->m_x - from->m_x).length())});
     }
   }
@@ -48,7 +48,7 @@ void RestMesh::findEdges(const btSoftBody& body) {
 void RestMesh::takeLinkLengths(const btSoftBody& body) {
   for (int k = 0; k < body.m_links.size(); ++k) {
     const btSoftBody::Link& link = body.m_links[k];
-    const int edge = edgeBetween(indexOf(body, link.m_n[0]), indexOf(body, link.m_n[1]));
+    const int edge = edgeBetween(nodeIndex(body, link.m_n[0]), nodeIndex(body, link.m_n[1]));
     const double length = static_cast<double>(link.m_rl);
     if (edge >= 0 && length > 0 && std::isfinite(length)) m_edges[static_cast<std::size_t>(edge)].length = length;
   }
@@ -58,7 +58,7 @@ void RestMesh::findTriangles(const btSoftBody& body) {
   m_triangles.resize(static_cast<std::size_t>(body.m_faces.size()));
   for (std::size_t f = 0; f < m_triangles.size(); ++f) {
     Triangle& triangle = m_triangles[f];
-    for (std::size_t k = 0; k < 3; ++k) triangle.nodes[k] = indexOf(body, body.m_faces[static_cast<int>(f)].m_n[k]);
+    for (std::size_t k = 0; k < 3; ++k) triangle.nodes[k] = nodeIndex(body, body.m_faces[static_cast<int>(f)].m_n[k]);
     std::array<double, 3> lengths = {0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
       triangle.edges[k] = edgeBetween(triangle.nodes[(k + 1) % 3], triangle.nodes[(k + 2) % 3]);

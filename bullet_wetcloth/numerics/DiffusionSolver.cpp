@@ -36,8 +36,8 @@ void DiffusionSolver::factor(const std::vector<WeightedEdge>& edges, const std::
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(capacities.size() + edges.size());
   for (const WeightedEdge& edge : edges) {
-    diagonal[index(edge.a)] += dt * edge.weight;
-    diagonal[index(edge.b)] += dt * edge.weight;
+    diagonal[toSize(edge.a)] += dt * edge.weight;
+    diagonal[toSize(edge.b)] += dt * edge.weight;
     entries.emplace_back(edge.b, edge.a, -dt * edge.weight);  // a < b: below the diagonal
   }
   for (Eigen::Index i = 0; i < size; ++i) entries.emplace_back(i, i, diagonal[static_cast<std::size_t>(i)]);
@@ -66,11 +66,11 @@ void DiffusionSolver::solveFactored(const std::vector<WeightedEdge>& edges, cons
   if (!(dt <= m_factoredDt && dt >= kShortestWithFactor * m_factoredDt)) factor(edges, capacities, dt);
   setUnevenness(capacities, potential);
   for (std::size_t i = 0; i < m_uneven.size(); ++i) {
-    m_work[index(m_factor.row(static_cast<int>(i)))][0] = capacities[i] * m_uneven[i];
+    m_work[toSize(m_factor.row(static_cast<int>(i)))][0] = capacities[i] * m_uneven[i];
   }
   m_factor.solveInPlace(m_work);
   for (std::size_t i = 0; i < m_uneven.size(); ++i) {
-    m_uneven[i] = m_work[index(m_factor.row(static_cast<int>(i)))][0];
+    m_uneven[i] = m_work[toSize(m_factor.row(static_cast<int>(i)))][0];
   }
   explicitFluxes(edges, m_uneven, dt, fluxes);
   ++m_solves;
@@ -80,9 +80,9 @@ void DiffusionSolver::multiply(const std::vector<WeightedEdge>& edges, const std
                                const std::vector<double>& x, std::vector<double>& product) const {
   for (std::size_t i = 0; i < x.size(); ++i) product[i] = capacities[i] * x[i];
   for (const WeightedEdge& edge : edges) {
-    const double flow = dt * edge.weight * (x[index(edge.a)] - x[index(edge.b)]);
-    product[index(edge.a)] += flow;
-    product[index(edge.b)] -= flow;
+    const double flow = dt * edge.weight * (x[toSize(edge.a)] - x[toSize(edge.b)]);
+    product[toSize(edge.a)] += flow;
+    product[toSize(edge.b)] -= flow;
   }
 }
 
@@ -93,8 +93,8 @@ void DiffusionSolver::solveIteratively(const std::vector<WeightedEdge>& edges, c
   setUnevenness(capacities, potential);
   m_diagonal = capacities;
   for (const WeightedEdge& edge : edges) {
-    m_diagonal[index(edge.a)] += dt * edge.weight;
-    m_diagonal[index(edge.b)] += dt * edge.weight;
+    m_diagonal[toSize(edge.a)] += dt * edge.weight;
+    m_diagonal[toSize(edge.b)] += dt * edge.weight;
   }
   multiply(edges, capacities, dt, m_uneven, m_product);
   double enough = 0;
@@ -130,8 +130,8 @@ void DiffusionSolver::solveIteratively(const std::vector<WeightedEdge>& edges, c
 double longestExplicitStep(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities) {
   std::vector<double> conductance(capacities.size(), 0);
   for (const WeightedEdge& edge : edges) {
-    conductance[index(edge.a)] += edge.weight;
-    conductance[index(edge.b)] += edge.weight;
+    conductance[toSize(edge.a)] += edge.weight;
+    conductance[toSize(edge.b)] += edge.weight;
   }
   double longest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < capacities.size(); ++i) {
@@ -143,7 +143,7 @@ double longestExplicitStep(const std::vector<WeightedEdge>& edges, const std::ve
 void explicitFluxes(const std::vector<WeightedEdge>& edges, const std::vector<double>& potential, double dt,
                     std::vector<double>& fluxes) {
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    fluxes[e] = dt * edges[e].weight * (potential[index(edges[e].a)] - potential[index(edges[e].b)]);
+    fluxes[e] = dt * edges[e].weight * (potential[toSize(edges[e].a)] - potential[toSize(edges[e].b)]);
   }
 }
 

@@ -48,8 +48,8 @@ bool EdgeFlow::load(const Water& water) {
 
 void EdgeFlow::weighEdges() {
   for (std::size_t e = 0; e < m_edges.size(); ++e) {
-    const std::size_t a = index(m_edges[e].a);
-    const std::size_t b = index(m_edges[e].b);
+    const std::size_t a = toSize(m_edges[e].a);
+    const std::size_t b = toSize(m_edges[e].b);
     const double areaPerCapacity = (m_areas[a] / m_capacity[a] + m_areas[b] / m_capacity[b]) / 2;
     m_edges[e].weight = areaPerCapacity > 0 ? m_weights[e] / areaPerCapacity : 0;
   }
@@ -81,7 +81,7 @@ void EdgeFlow::carryMomentum(WetCloth& cloth, const std::vector<double>& fluxes)
   const Water& water = cloth.water();
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
     const btSoftBody::Node& node = body.m_nodes[static_cast<int>(i)];
-    for (int c = 0; c < 3; ++c) m_nodes[i].velocity[index(c)] = static_cast<double>(node.m_v[c]);
+    for (int c = 0; c < 3; ++c) m_nodes[i].velocity[toSize(c)] = static_cast<double>(node.m_v[c]);
     m_nodes[i].mass = water.totalMass(i);
     m_nodes[i].isFixed = node.m_im == 0;
   }
@@ -89,7 +89,7 @@ void EdgeFlow::carryMomentum(WetCloth& cloth, const std::vector<double>& fluxes)
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
     btSoftBody::Node& node = body.m_nodes[static_cast<int>(i)];
     const auto change = [&](int c) {
-      return static_cast<btScalar>(m_nodes[i].velocity[index(c)] - static_cast<double>(node.m_v[c]));
+      return static_cast<btScalar>(m_nodes[i].velocity[toSize(c)] - static_cast<double>(node.m_v[c]));
     };
     cloth.push(node, btVector3(change(0), change(1), change(2)));
   }

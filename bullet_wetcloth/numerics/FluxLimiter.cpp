@@ -41,8 +41,8 @@ void FluxLimiter::apply(const std::vector<WeightedEdge>& edges, const std::vecto
 void FluxLimiter::sumFluxes(const std::vector<WeightedEdge>& edges, const std::vector<double>& fluxes) {
   for (Node& node : m_nodes) node.in = node.out = 0;
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    Node& a = m_nodes[index(edges[e].a)];
-    Node& b = m_nodes[index(edges[e].b)];
+    Node& a = m_nodes[toSize(edges[e].a)];
+    Node& b = m_nodes[toSize(edges[e].b)];
     const double toB = std::max(fluxes[e], 0.0);
     const double toA = std::max(-fluxes[e], 0.0);
     a.in += toA;
@@ -80,8 +80,8 @@ void FluxLimiter::findSafeShares(const std::vector<double>& held) {
 
 void FluxLimiter::scale(const std::vector<WeightedEdge>& edges, std::vector<double>& fluxes) const {
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    const Node& a = m_nodes[index(edges[e].a)];
-    const Node& b = m_nodes[index(edges[e].b)];
+    const Node& a = m_nodes[toSize(edges[e].a)];
+    const Node& b = m_nodes[toSize(edges[e].b)];
     fluxes[e] *= fluxes[e] > 0 ? std::min(a.giveShare, b.takeShare) : std::min(b.giveShare, a.takeShare);
   }
 }

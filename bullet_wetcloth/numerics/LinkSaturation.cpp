@@ -3,7 +3,6 @@
 
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/bullet/Index.h"
-#include "bullet_wetcloth/bullet/NodeIndex.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
@@ -23,7 +22,7 @@ void LinkSaturation::reset(const WetCloth& cloth) {
   m_links.resize(static_cast<std::size_t>(body.m_links.size()));
   for (std::size_t k = 0; k < m_links.size(); ++k) {
     const btSoftBody::Link& link = body.m_links[static_cast<int>(k)];
-    m_links[k] = {index(indexOf(body, link.m_n[0])), index(indexOf(body, link.m_n[1]))};
+    m_links[k] = {toSize(nodeIndex(body, link.m_n[0])), toSize(nodeIndex(body, link.m_n[1]))};
   }
   m_saturation.resize(cloth.water().size());
   take(cloth);

@@ -24,15 +24,15 @@ void MomentumFlow::reset(std::size_t nodeCount, const std::vector<WeightedEdge>&
   m_ready.reserve(nodeCount);
   m_firstEdge.assign(nodeCount + 1, 0);
   for (const WeightedEdge& edge : edges) {
-    ++m_firstEdge[index(edge.a) + 1];
-    ++m_firstEdge[index(edge.b) + 1];
+    ++m_firstEdge[toSize(edge.a) + 1];
+    ++m_firstEdge[toSize(edge.b) + 1];
   }
   for (std::size_t i = 0; i < nodeCount; ++i) m_firstEdge[i + 1] += m_firstEdge[i];
   m_edgesOfNode.resize(2 * edges.size());
   std::vector<std::size_t> next(m_firstEdge.begin(), m_firstEdge.end() - 1);
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    m_edgesOfNode[next[index(edges[e].a)]++] = static_cast<int>(e);
-    m_edgesOfNode[next[index(edges[e].b)]++] = static_cast<int>(e);
+    m_edgesOfNode[next[toSize(edges[e].a)]++] = static_cast<int>(e);
+    m_edgesOfNode[next[toSize(edges[e].b)]++] = static_cast<int>(e);
   }
 }
 
@@ -47,7 +47,7 @@ void MomentumFlow::apply(const std::vector<WeightedEdge>& edges, const std::vect
   }
   std::size_t done = 0;
   for (; done < m_ready.size(); ++done) {
-    const std::size_t i = index(m_ready[done]);
+    const std::size_t i = toSize(m_ready[done]);
     mix(nodes[i], m_inflows[i].momentum, m_inflows[i].mass);
     passOn(m_ready[done], edges, fluxes, nodes);
   }
@@ -57,24 +57,24 @@ void MomentumFlow::apply(const std::vector<WeightedEdge>& edges, const std::vect
 void MomentumFlow::countInflows(const std::vector<WeightedEdge>& edges, const std::vector<double>& fluxes) {
   for (Inflow& inflow : m_inflows) inflow = Inflow();
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (fluxes[e] > 0) ++m_inflows[index(edges[e].b)].pending;
-    if (fluxes[e] < 0) ++m_inflows[index(edges[e].a)].pending;
+    if (fluxes[e] > 0) ++m_inflows[toSize(edges[e].b)].pending;
+    if (fluxes[e] < 0) ++m_inflows[toSize(edges[e].a)].pending;
   }
 }
 
 void MomentumFlow::passOn(int from, const std::vector<WeightedEdge>& edges, const std::vector<double>& fluxes,
                           const std::vector<Node>& nodes) {
-  for (std::size_t k = m_firstEdge[index(from)]; k < m_firstEdge[index(from) + 1]; ++k) {
-    const std::size_t e = index(m_edgesOfNode[k]);
+  for (std::size_t k = m_firstEdge[toSize(from)]; k < m_firstEdge[toSize(from) + 1]; ++k) {
+    const std::size_t e = toSize(m_edgesOfNode[k]);
     const bool isStart = edges[e].a == from;
     const double mass = isStart ? fluxes[e] : -fluxes[e];
     if (!(mass > 0)) continue;
     const int to = isStart ? edges[e].b : edges[e].a;
-    Inflow& inflow = m_inflows[index(to)];
+    Inflow& inflow = m_inflows[toSize(to)];
     if (inflow.pending == kDone) continue;  // fixed
     inflow.mass += mass;
     for (std::size_t c = 0; c < 3; ++c) {
-      inflow.momentum[c] += mass * (nodes[index(from)].velocity[c] - nodes[index(to)].velocity[c]);
+      inflow.momentum[c] += mass * (nodes[toSize(from)].velocity[c] - nodes[toSize(to)].velocity[c]);
     }
     if (--inflow.pending > 0) continue;
     inflow.pending = kDone;

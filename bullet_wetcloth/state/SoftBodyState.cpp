@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/state/SoftBodyState.h"
 
-#include "bullet_wetcloth/bullet/IndexIn.h"
+#include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/state/TreeState.h"
 
 #include <algorithm>
@@ -82,7 +82,7 @@ TreeLeaves leavesOf(const char* what, btAlignedObjectArray<Element>& elements) {
   TreeLeaves leaves;
   leaves.what = what;
   leaves.size = elements.size();
-  leaves.indexOf = [&](const void* data) { return indexIn<Element>(elements, static_cast<const Element*>(data)); };
+  leaves.indexOf = [&](const void* data) { return findIndex<Element>(elements, static_cast<const Element*>(data)); };
   leaves.dataOf = [&](int index) -> void* { return &elements[index]; };
   leaves.tell = [&](int index, btDbvtNode& leaf) { elements[index].m_leaf = &leaf; };
   return leaves;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Zlib
-#include "bullet_wetcloth/bullet/IndexIn.h"
+#include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/state/SoftBodyState.h"
 
 namespace wetcloth {
@@ -8,13 +8,13 @@ inline namespace WETCLOTH_PRECISION {
 namespace {
 
 void transferNodePointer(StateArchive& archive, btSoftBody::tNodeArray& nodes, btSoftBody::Node*& node) {
-  const int index = archive.isSaving() ? indexIn<btSoftBody::Node>(nodes, node) : 0;
+  const int index = archive.isSaving() ? findIndex<btSoftBody::Node>(nodes, node) : 0;
   const int place = archive.place(index, nodes.size(), "node of a contact");
   if (archive.isRestoring()) node = &nodes[place];
 }
 
 void transferFacePointer(StateArchive& archive, btSoftBody::tFaceArray& faces, btSoftBody::Face*& face) {
-  const int index = archive.isSaving() ? indexIn<btSoftBody::Face>(faces, face) : 0;
+  const int index = archive.isSaving() ? findIndex<btSoftBody::Face>(faces, face) : 0;
   const int place = archive.place(index, faces.size(), "face of a contact");
   if (archive.isRestoring()) face = &faces[place];
 }
@@ -23,7 +23,7 @@ void transferFacePointer(StateArchive& archive, btSoftBody::tFaceArray& faces, b
 void transferFacePointer(StateArchive& archive, const SoftBodyArray& bodies, btSoftBody::Face*& face) {
   int owner = 0;
   if (archive.isSaving()) {
-    while (owner < bodies.size() && indexIn<btSoftBody::Face>(bodies[owner]->m_faces, face) < 0) ++owner;
+    while (owner < bodies.size() && findIndex<btSoftBody::Face>(bodies[owner]->m_faces, face) < 0) ++owner;
   }
   owner = archive.place(owner < bodies.size() ? owner : -1, bodies.size(), "soft body of a contact");
   transferFacePointer(archive, bodies[owner]->m_faces, face);
@@ -32,12 +32,12 @@ void transferFacePointer(StateArchive& archive, const SoftBodyArray& bodies, btS
 // Bullet leaves the lists of the last step as they are when a body is cut, or leaves the world.
 template <class Contact>
 auto namesNode(const btSoftBody& body) {
-  return [&](const Contact& contact) { return indexIn<btSoftBody::Node>(body.m_nodes, contact.m_node) >= 0; };
+  return [&](const Contact& contact) { return findIndex<btSoftBody::Node>(body.m_nodes, contact.m_node) >= 0; };
 }
 
 template <class Contact>
 auto namesFace(const btSoftBody& body) {
-  return [&](const Contact& contact) { return indexIn<btSoftBody::Face>(body.m_faces, contact.m_face) >= 0; };
+  return [&](const Contact& contact) { return findIndex<btSoftBody::Face>(body.m_faces, contact.m_face) >= 0; };
 }
 
 template <class Contact>

@@ -3,7 +3,6 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/bullet/Index.h"
-#include "bullet_wetcloth/bullet/NodeIndex.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -65,8 +64,8 @@ std::vector<double> neighbourWaterShare(const btSoftBody& body, const Water& wat
   std::vector<double> share(newCount, 0);
   std::vector<int> count(newCount, 0);
   for (int k = 0; k < body.m_links.size(); ++k) {
-    const std::size_t ends[2] = {index(indexOf(body, body.m_links[k].m_n[0])),
-                                 index(indexOf(body, body.m_links[k].m_n[1]))};
+    const std::size_t ends[2] = {toSize(nodeIndex(body, body.m_links[k].m_n[0])),
+                                 toSize(nodeIndex(body, body.m_links[k].m_n[1]))};
     for (int side = 0; side < 2; ++side) {
       const std::size_t added = ends[side];
       const std::size_t old = ends[1 - side];
@@ -105,7 +104,7 @@ std::vector<double> nodeAreas(const btSoftBody& body) {
   for (int f = 0; f < body.m_faces.size(); ++f) {
     btSoftBody::Node* const* corners = body.m_faces[f].m_n;
     const btVector3 twice = (corners[1]->m_x - corners[0]->m_x).cross(corners[2]->m_x - corners[0]->m_x);
-    for (int k = 0; k < 3; ++k) areas[index(indexOf(body, corners[k]))] += static_cast<double>(twice.length()) / 6;
+    for (int k = 0; k < 3; ++k) areas[toSize(nodeIndex(body, corners[k]))] += static_cast<double>(twice.length()) / 6;
   }
   return areas;
 }

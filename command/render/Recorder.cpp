@@ -122,7 +122,7 @@ pictures::Scenery sceneryOf(const Scene& scene) {
 }
 
 void takeNodes(const btSoftBody& body, ClothState& state) {
-  const std::size_t count = wetcloth::index(body.m_nodes.size());
+  const std::size_t count = wetcloth::toSize(body.m_nodes.size());
   state.positions.resize(count);
   state.speed.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -138,7 +138,7 @@ void takeStretch(const btSoftBody& body, const ClothShape& shape, const std::vec
   for (std::size_t i = 0; i < shape.links.size(); ++i) {
     const float stretch = distance(body, shape.links[i]) / std::max(restLengths[i], 1e-12F);
     for (const int node : shape.links[i]) {
-      float& most = state.stretch[wetcloth::index(node)];
+      float& most = state.stretch[wetcloth::toSize(node)];
       most = std::max(most, stretch);
     }
   }

@@ -205,7 +205,7 @@ TEST(DrippingIdles, UntilTheClothIsTurned) {
   for (int i = 0; i < 200; ++i) hung.scene.preTick(1);
   const double before = hung.effect->drippedMass();
   for (int i = 0; i < 25; ++i) hung.scene.node(i).m_x.setY(-hung.scene.node(i).m_x.y());
-  for (int i = 0; i < 32; ++i) hung.scene.preTick(1);  // Settling looks at each node once in 32 steps
+  for (int i = 0; i < 32; ++i) hung.scene.preTick(1);  // SteadyState looks at each node once in 32 steps
   EXPECT_GT(hung.effect->drippedMass(), before);
   EXPECT_LT(hung.scene.cloth().saturation(20), 1);
 }

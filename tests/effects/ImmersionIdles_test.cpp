@@ -64,7 +64,7 @@ TEST_P(ImmersionInWorld, AFallingClothSoaksInTheVeryStepThatItsFirstNodeIsBelow)
   }
 }
 
-// One corner alone is drawn down within five steps, as if by hand, while all else rests: Settling, which looks at a
+// One corner alone is drawn down within five steps, as if by hand, while all else rests: SteadyState, which looks at a
 // 32nd of the nodes in a step, would see most of these too late.
 TEST_P(ImmersionInWorld, OneNodeThatIsDrawnUnderIsNoticed) {
   for (const int phase : {0, 7, 14, 21, 28}) {

@@ -77,7 +77,7 @@ TEST(ImmersionLaw, IsExactForAnyStep) {
 
 TEST(ImmersionLaw, DoesNotSettleBeforeASlowExponentialIsAtItsEnd) {
   Bath bath({wall()});
-  // Each step moves 1e-10 of the capacity, which Settling alone would take for rest.
+  // Each step moves 1e-10 of the capacity, which SteadyState alone would take for rest.
   for (int i = 0; i < 1000; ++i) bath.scene.preTick(1e-9);
   EXPECT_NEAR(bath.saturation(0) / soaked(1000 * double(btScalar(1e-9))), 1, 1e-9);
 }

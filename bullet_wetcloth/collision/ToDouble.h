@@ -16,7 +16,7 @@ namespace wetcloth::collision {
 
 /// A float as a double, exactly. From its bits where it is denormal, because a processor that takes denormals for 0
 /// does so in a conversion, too.
-inline double widen(float value) {
+inline double toDouble(float value) {
   std::uint32_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
   if ((bits & 0x7f800000U) != 0) return double(value);
@@ -24,17 +24,17 @@ inline double widen(float value) {
   return (bits >> 31U) != 0 ? -size : size;
 }
 
-inline Query<double> widen(const Query<float>& query) {
+inline Query<double> toDouble(const Query<float>& query) {
   Query<double> result;
   for (int i = 0; i < 4; ++i) {
     for (int k = 0; k < 3; ++k) {
-      result.start[i][k] = widen(query.start[i][k]);
-      result.end[i][k] = widen(query.end[i][k]);
+      result.start[i][k] = toDouble(query.start[i][k]);
+      result.end[i][k] = toDouble(query.end[i][k]);
     }
   }
   return result;
 }
 
-inline const Query<double>& widen(const Query<double>& query) { return query; }
+inline const Query<double>& toDouble(const Query<double>& query) { return query; }
 
 }  // namespace wetcloth::collision

@@ -29,24 +29,24 @@ constexpr double kUnderflow = 0x1p-700;
 /// origin is in the convex hull of these (vertexFace) or is a bilinear mean of them (edgeEdge), so a plane that has all
 /// of them on one side proves that they do not.
 template <Pair pair>
-struct Relative;
+struct PointDifferences;
 
 template <>
-struct Relative<Pair::vertexFace> {
+struct PointDifferences<Pair::vertexFace> {
   static constexpr int kVectors = 3;
   static constexpr int kFirstBetween = 0;
   Vector vectors[kVectors];
 };
 
 template <>
-struct Relative<Pair::edgeEdge> {
+struct PointDifferences<Pair::edgeEdge> {
   static constexpr int kVectors = 5;
   static constexpr int kFirstBetween = 1;
   Vector vectors[kVectors];  ///< p1 - p0, then between: p2 - p0, p3 - p0, p2 - p1, p3 - p1
 };
 
 template <Pair pair>
-Relative<pair> relative(const double (&points)[4][3]) {
+PointDifferences<pair> differences(const double (&points)[4][3]) {
   const Eigen::Map<const Vector> p0(points[0]);
   const Eigen::Map<const Vector> p1(points[1]);
   const Eigen::Map<const Vector> p2(points[2]);
@@ -62,18 +62,18 @@ Relative<pair> relative(const double (&points)[4][3]) {
 template <Pair pair>
 Vector magnitude(const Vector* first, const Vector* last) {
   Vector largest = first[0].cwiseAbs().cwiseMax(last[0].cwiseAbs());
-  for (int i = 1; i < Relative<pair>::kVectors; ++i)
+  for (int i = 1; i < PointDifferences<pair>::kVectors; ++i)
     largest = largest.cwiseMax(first[i].cwiseAbs()).cwiseMax(last[i].cwiseAbs());
   return largest;
 }
 
 /// The vectors at time t, a multiple of 2^-52 so that 1 - t is exact.
 template <Pair pair>
-Relative<pair> blend(const Relative<pair>& start, const Relative<pair>& end, double t) {
+PointDifferences<pair> blend(const PointDifferences<pair>& start, const PointDifferences<pair>& end, double t) {
   if (t == 0) return start;
   if (t == 1) return end;
-  Relative<pair> result;
-  for (int i = 0; i < Relative<pair>::kVectors; ++i)
+  PointDifferences<pair> result;
+  for (int i = 0; i < PointDifferences<pair>::kVectors; ++i)
     result.vectors[i] = (1 - t) * start.vectors[i] + t * end.vectors[i];
   return result;
 }

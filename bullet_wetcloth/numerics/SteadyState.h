@@ -18,16 +18,16 @@ inline namespace WETCLOTH_PRECISION {
 /// longer) for 64 steps on end: by the second, since a short step moves little though much is left to move. It goes on
 /// when more than 1e-7 of the capacity has been moved since, by anyone or by hand; when the capacity has changed; when
 /// the cloth's shape or gravity has changed, if it depends on them; and after restart().
-class Settling {
+class SteadyState {
  public:
   enum class DependsOn { water, waterAndShape };
-  explicit Settling(DependsOn inputs = DependsOn::water) : m_inputs(inputs) {}
+  explicit SteadyState(DependsOn inputs = DependsOn::water) : m_inputs(inputs) {}
 
   /// A parameter or the body changed.
   void restart();
 
   /// Whether the effect may leave this step out. Looks at a 32nd of the nodes at most.
-  bool isSettled(const WetCloth& cloth, const Step& step);
+  bool isReached(const WetCloth& cloth, const Step& step);
 
   /// After a step that was not left out, with what it moved [kg]. May allocate in the first call after restart().
   void note(const WetCloth& cloth, const Step& step, double moved);
@@ -40,7 +40,7 @@ class Settling {
 
   DependsOn m_inputs;
   int m_quietSteps = 0;
-  bool m_isSettled = false;
+  bool m_isReached = false;
   double m_capacity = 0;           // when it settled
   double m_movedBefore = 0;        // Water::moved() when it settled
   std::vector<btVector3> m_shape;  // when it settled

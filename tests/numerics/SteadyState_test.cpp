@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // When an effect that moves water may idle, and what makes it go on.
 
-#include "bullet_wetcloth/numerics/Settling.h"
+#include "bullet_wetcloth/numerics/SteadyState.h"
 #include "tests/support/CoreScene.h"
 
 #include <cmath>
@@ -12,7 +12,7 @@ using namespace core;
 
 namespace {
 
-using wetcloth::Settling;
+using wetcloth::SteadyState;
 using wetcloth::Step;
 
 constexpr int kPatience = 64;  // quiet steps, as the header says
@@ -20,16 +20,16 @@ constexpr int kLooks = 32;     // steps in which each node is looked at once
 
 /// A cloth of 10 x 10 nodes, 1 m x 1 m, and an effect that moves as much as it is told.
 struct Resting {
-  explicit Resting(Settling::DependsOn inputs)
+  explicit Resting(SteadyState::DependsOn inputs)
       : scene(WorldKind::softRigid, squarePatch(10)),
         wet(scene.world(), wetcloth::Hook::manual),
         cloth(wet.add(scene.body(), fabricOf(1, 1))),
-        settling(inputs) {}
+        steadyState(inputs) {}
   double capacity() { return cloth.water().totalCapacity(); }
   /// One step of the effect; true when it was left out.
   bool step(double moved) {
-    if (settling.isSettled(cloth, now)) return true;
-    settling.note(cloth, now, moved);
+    if (steadyState.isReached(cloth, now)) return true;
+    steadyState.note(cloth, now, moved);
     return false;
   }
   /// Quiet steps until one is left out.
@@ -41,17 +41,17 @@ struct Resting {
   /// Steps that are left out before one is not, at most `most`.
   int stepsUntilAwake(int most) {
     int steps = 0;
-    while (steps < most && settling.isSettled(cloth, now)) ++steps;
+    while (steps < most && steadyState.isReached(cloth, now)) ++steps;
     return steps;
   }
   CoreScene scene;
   wetcloth::WetClothWorld wet;
   wetcloth::WetCloth& cloth;
-  Settling settling;
+  SteadyState steadyState;
   Step now{1.0 / 240, 0, kEarthGravity};
 };
 
-class SettlingOnEither : public testing::TestWithParam<Settling::DependsOn> {};
+class SettlingOnEither : public testing::TestWithParam<SteadyState::DependsOn> {};
 
 TEST_P(SettlingOnEither, AfterSixtyFourQuietSteps) {
   Resting resting(GetParam());
@@ -82,7 +82,7 @@ TEST_P(SettlingOnEither, WhatIsNoNumberIsNotQuiet) {
 TEST_P(SettlingOnEither, GoesOnAfterRestart) {
   Resting resting(GetParam());
   resting.stepsUntilSettled();
-  resting.settling.restart();
+  resting.steadyState.restart();
   EXPECT_EQ(resting.stepsUntilSettled(), kPatience);
 }
 
@@ -141,14 +141,14 @@ TEST_P(SettlingOnEither, ItsOwnWaterDoesNotKeepItAwake) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, SettlingOnEither,
-                         testing::Values(Settling::DependsOn::water, Settling::DependsOn::waterAndShape),
+                         testing::Values(SteadyState::DependsOn::water, SteadyState::DependsOn::waterAndShape),
                          [](const auto& test) {
-                           return test.param == Settling::DependsOn::water ? "water" : "waterAndShape";
+                           return test.param == SteadyState::DependsOn::water ? "water" : "waterAndShape";
                          });
 
 class SettlingOnShape : public testing::Test {
  protected:
-  SettlingOnShape() : resting(Settling::DependsOn::waterAndShape) { resting.stepsUntilSettled(); }
+  SettlingOnShape() : resting(SteadyState::DependsOn::waterAndShape) { resting.stepsUntilSettled(); }
   Resting resting;
 };
 
@@ -199,7 +199,7 @@ TEST_F(SettlingOnShape, GoesOnWhenTheBodyHasMoreNodes) {
 }
 
 TEST(SettlingOnWater, DoesNotLookAtTheShape) {
-  Resting resting(Settling::DependsOn::water);
+  Resting resting(SteadyState::DependsOn::water);
   resting.stepsUntilSettled();
   for (int i = 0; i < 100; ++i) resting.scene.body().m_nodes[i].m_x += btVector3(5, 5, 5);
   resting.now.gravity = btVector3(0, 0, 0);

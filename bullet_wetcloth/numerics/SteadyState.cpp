@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Zlib
-#include "bullet_wetcloth/numerics/Settling.h"
+#include "bullet_wetcloth/numerics/SteadyState.h"
 
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/state/StateArchive.h"
@@ -20,33 +20,33 @@ constexpr btScalar kMoved = btScalar(1e-3);  // of the body's size
 
 }  // namespace
 
-void Settling::restart() {
-  m_isSettled = false;
+void SteadyState::restart() {
+  m_isReached = false;
   m_quietSteps = 0;
 }
 
-bool Settling::isSettled(const WetCloth& cloth, const Step& step) {
-  if (!m_isSettled) return false;
+bool SteadyState::isReached(const WetCloth& cloth, const Step& step) {
+  if (!m_isReached) return false;
   const Water& water = cloth.water();
   const bool isDisturbed =
       water.moved() - m_movedBefore > kDisturbed * m_capacity || water.totalCapacity() != m_capacity;
   if (isDisturbed || (m_inputs == DependsOn::waterAndShape && shapeChanged(cloth, step))) restart();
-  return m_isSettled;
+  return m_isReached;
 }
 
-void Settling::note(const WetCloth& cloth, const Step& step, double moved) {
+void SteadyState::note(const WetCloth& cloth, const Step& step, double moved) {
   m_shape.resize(m_inputs == DependsOn::waterAndShape ? cloth.water().size() : 0);
   const double capacity = cloth.water().totalCapacity();
   const bool isQuiet = moved <= kQuiet * capacity * std::min(step.dt, 1.0);
   m_quietSteps = isQuiet ? m_quietSteps + 1 : 0;
   if (m_quietSteps < kPatience) return;
-  m_isSettled = true;
+  m_isReached = true;
   m_capacity = capacity;
   m_movedBefore = cloth.water().moved();
   if (m_inputs == DependsOn::waterAndShape) rememberShape(cloth, step);
 }
 
-bool Settling::shapeChanged(const WetCloth& cloth, const Step& step) {
+bool SteadyState::shapeChanged(const WetCloth& cloth, const Step& step) {
   if (!(step.gravity == m_gravity) || m_shape.size() != cloth.water().size()) return true;
   const std::size_t share = (m_shape.size() + kLooks - 1) / kLooks;
   for (std::size_t k = 0; k < share; ++k) {
@@ -57,7 +57,7 @@ bool Settling::shapeChanged(const WetCloth& cloth, const Step& step) {
   return false;
 }
 
-void Settling::rememberShape(const WetCloth& cloth, const Step& step) {
+void SteadyState::rememberShape(const WetCloth& cloth, const Step& step) {
   const btSoftBody& body = cloth.body();
   for (std::size_t i = 0; i < m_shape.size(); ++i) m_shape[i] = body.m_nodes[static_cast<int>(i)].m_x;
   const btScalar tolerance = kMoved * (body.m_bounds[1] - body.m_bounds[0]).length();
@@ -65,8 +65,8 @@ void Settling::rememberShape(const WetCloth& cloth, const Step& step) {
   m_gravity = step.gravity;
 }
 
-void Settling::transferState(StateArchive& archive) {
-  archive.value(m_quietSteps, m_isSettled, m_capacity, m_movedBefore, m_gravity, m_tolerance2);
+void SteadyState::transferState(StateArchive& archive) {
+  archive.value(m_quietSteps, m_isReached, m_capacity, m_movedBefore, m_gravity, m_tolerance2);
   archive.growingArray(m_shape);
   archive.value(m_nextNode);
 }
