@@ -50,12 +50,9 @@ void HookeSprings::attach(WetCloth& cloth) {
   btSoftBody& body = cloth.body();
   const std::size_t links = static_cast<std::size_t>(body.m_links.size());
   if (links == 0) rejectValue("HookeSprings: body.m_links.size()", 0, "at least 1: the springs are the body's links");
-  for (const auto& effect : cloth.effects()) {
-    // A second one would take the first one's powerless links for the body's own.
-    if (effect.get() != this && dynamic_cast<const HookeSprings*>(effect.get())) {
-      reject("HookeSprings", "the cloth has them already");
-    }
-  }
+  // A second one would take the first one's powerless links for the body's own.
+  const HookeSprings* const known = cloth.find<HookeSprings>();
+  if (known && known != this) reject("HookeSprings", "the cloth has them already");
   const bool isFirst = !m_powerless;
   if (isFirst && !m_parameters.perLink.empty() && m_parameters.perLink.size() != links) {
     rejectValue("HookeSprings.perLink.size()", m_parameters.perLink.size(),
