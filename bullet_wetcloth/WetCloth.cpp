@@ -51,6 +51,12 @@ void WetCloth::apply(Stage first, Stage last, const Step& step) {
 
 // --- the step, in the order of a substep ----------------------------------------------------------------------------
 
+void WetCloth::observe(const Step& step) {
+  if (!m_effects.has(Stage::observe) || !(step.dt > 0)) return;
+  if (m_watch.hasChanged()) adaptToBody();
+  apply(Stage::observe, Stage::observe, step);
+}
+
 void WetCloth::step(const Step& step) {
   if ((m_effects.empty() && !m_water.movedSinceCommit()) || !(step.dt > 0)) return;
   if (m_watch.hasChanged()) adaptToBody();

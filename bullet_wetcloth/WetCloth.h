@@ -159,6 +159,8 @@ class WetCloth {
   friend class WetClothWorld;
   WetCloth(WetClothWorld& world, btSoftBody& body, Fabric fabric, bool deformable);
 
+  /// First of all, before any cloth's step(): observe. Never throws.
+  void observe(const Step& step);
   /// Before Bullet predicts: sources, transport, losses, material, commit, forces, elasticity. Never throws.
   void step(const Step& step);
   /// After the steps of all cloths: what another one gave or took since this one's own commit.

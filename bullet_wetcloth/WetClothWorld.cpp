@@ -107,6 +107,9 @@ void WetClothWorld::preTick(btScalar dt) {
   if (!(std::isfinite(dt) && dt > 0)) return;
   m_stepStart = m_time;
   for (const auto& cloth : m_cloths) {
+    if (noticePresence(*cloth)) cloth->observe(stepOf(cloth->m_body, dt, m_time));
+  }
+  for (const auto& cloth : m_cloths) {
     if (noticePresence(*cloth)) cloth->step(stepOf(cloth->m_body, dt, m_time));
   }
   for (const auto& cloth : m_cloths) {
