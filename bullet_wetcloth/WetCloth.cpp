@@ -20,6 +20,7 @@ WetCloth::WetCloth(WetClothWorld& world, btSoftBody& body, Fabric fabric, bool d
       m_fabric(std::move(fabric)),
       m_deformable(deformable),
       m_masses(body, deformable),
+      m_linkConstants(body),
       m_effects(*this),
       m_watch(body) {
   m_water.reset(dryMasses(m_body, m_fabric.arealDensity), m_fabric.capacity);
@@ -61,8 +62,14 @@ void WetCloth::step(const Step& step) {
   if ((m_effects.empty() && !m_water.movedSinceCommit()) || !(step.dt > 0)) return;
   if (m_watch.hasChanged()) adaptToBody();
   apply(Stage::sources, Stage::material, step);
-  if (m_water.movedSinceCommit()) m_masses.commit(m_water);
+  if (m_water.movedSinceCommit()) commit();
   if (isAwake(step)) apply(Stage::forces, Stage::elasticity, step);
+}
+
+// Masses and momentum, and then the links' constants, which follow from the masses.
+void WetCloth::commit() {
+  const bool massesChanged = m_masses.commit(m_water);
+  if (massesChanged || m_linkConstants.areStale()) m_linkConstants.refresh(m_masses.inverseMasses());
 }
 
 // Bullet adds no gravity to a sleeping body, and what we would push against it would move the cloth all the same. So
@@ -80,7 +87,7 @@ bool WetCloth::isAwake(const Step& step) {
 }
 
 void WetCloth::commitExchange() {
-  if (m_water.movedSinceCommit() && !m_watch.nodesChanged()) m_masses.commit(m_water);
+  if (m_water.movedSinceCommit() && !m_watch.nodesChanged()) commit();
 }
 
 void WetCloth::stepContacts(const Step& step) {
@@ -97,7 +104,7 @@ void WetCloth::adaptToBody() {
         std::to_string(m_body.m_nodes.size()) + "; its water is kept");
     redistributeWater(m_body, m_fabric.arealDensity, m_water);
     m_masses.remember();
-    m_masses.commit(m_water);
+    commit();
   }
   m_restMesh.reset();
   m_watch.remember();
@@ -146,7 +153,7 @@ void WetCloth::setHeld(const std::vector<double>& held) {
   }
   for (std::size_t i = 0; i < held.size(); ++i) requireNotNegative("held[" + std::to_string(i) + "]", held[i]);
   m_water.setHeld(held);
-  m_masses.commit(m_water);
+  commit();
 }
 
 double WetCloth::totalMass() const {
@@ -180,6 +187,7 @@ void WetCloth::transferState(StateArchive& archive) {
   archive.value(m_massAsleep, m_wasPresent);
   m_water.transferState(archive);
   m_masses.transferState(archive);
+  m_linkConstants.transferState(archive);
   transferMesh(archive);
   m_effects.transferState(archive);
 }

@@ -9,6 +9,7 @@
 #include "bullet_wetcloth/Range.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
 #include "bullet_wetcloth/shading/Colour.h"
+#include "bullet_wetcloth/water/LinkConstants.h"
 #include "bullet_wetcloth/water/NodeMasses.h"
 #include "bullet_wetcloth/water/Water.h"
 
@@ -130,6 +131,9 @@ class WetCloth {
   Water& water() { return m_water; }
   const Water& water() const { return m_water; }
   NodeMasses& masses() { return m_masses; }
+  const NodeMasses& masses() const { return m_masses; }
+  LinkConstants& linkConstants() { return m_linkConstants; }
+  const LinkConstants& linkConstants() const { return m_linkConstants; }
   /// The cloth's triangles at rest. Built when first asked for, and again after the body's nodes, links or faces
   /// changed in number: ask in attach(), which is called then.
   const RestMesh& restMesh();
@@ -170,6 +174,7 @@ class WetCloth {
 
   Effect& add(std::unique_ptr<Effect> effect, const void* type);
   void apply(Stage first, Stage last, const Step& step);
+  void commit();
   bool isAwake(const Step& step);
   void adaptToBody();
   void transferState(StateArchive& archive);
@@ -182,6 +187,7 @@ class WetCloth {
   bool m_deformable;
   Water m_water;
   NodeMasses m_masses;
+  LinkConstants m_linkConstants;
   std::optional<RestMesh> m_restMesh;
   EffectList m_effects;
   BodyWatch m_watch;

@@ -77,10 +77,10 @@ double HookeSprings::stiffnessOf(const btSoftBody::Link& link, std::size_t index
 }
 
 void HookeSprings::scaleStiffness(WetCloth& cloth) {
-  const NodeMasses& masses = cloth.masses();
-  if (masses.linkStiffnessRevision() == m_stiffnessRevision) return;
-  m_stiffnessRevision = masses.linkStiffnessRevision();
-  const std::vector<btScalar>& factors = masses.linkStiffness();
+  const LinkConstants& links = cloth.linkConstants();
+  if (links.stiffnessRevision() == m_stiffnessRevision) return;
+  m_stiffnessRevision = links.stiffnessRevision();
+  const std::vector<btScalar>& factors = links.stiffness();
   const bool isScaled = factors.size() == m_springs.size();
   for (std::size_t k = 0; k < m_springs.size(); ++k) {
     const double own = stiffnessOf(cloth.body().m_links[static_cast<int>(k)], k);
@@ -102,7 +102,7 @@ void HookeSprings::disableLinks(WetCloth& cloth) {
     if (isNew) m_ownMaterials.push_back(material == m_powerless ? body.m_materials[0] : material);
     material = m_powerless;
   }
-  cloth.masses().refreshLinks();
+  cloth.linkConstants().refresh();
 }
 
 void HookeSprings::detach(WetCloth& cloth) {
@@ -111,7 +111,7 @@ void HookeSprings::detach(WetCloth& cloth) {
     const std::size_t index = static_cast<std::size_t>(k);
     body.m_links[k].m_material = index < m_ownMaterials.size() ? m_ownMaterials[index] : body.m_materials[0];
   }
-  cloth.masses().refreshLinks();
+  cloth.linkConstants().refresh();
 }
 
 void HookeSprings::apply(WetCloth& cloth, const Step& step) {

@@ -68,8 +68,8 @@ void WetStiffness::attach(WetCloth& cloth) {
 
 void WetStiffness::detach(WetCloth& cloth) {
   if (!scales()) return;
-  cloth.masses().setLinkStiffness({});
-  cloth.masses().refreshLinks();
+  cloth.linkConstants().setStiffness({});
+  cloth.linkConstants().refresh();
 }
 
 void WetStiffness::apply(WetCloth& cloth, const Step& step) {
@@ -81,7 +81,7 @@ void WetStiffness::apply(WetCloth& cloth, const Step& step) {
   if (scales() && (changed || m_factorsAreStale)) {
     scaleLinks(cloth);
   } else if (scales() && constantsWereReset) {
-    cloth.masses().refreshLinks();
+    cloth.linkConstants().refresh();
   }
   if (!damps()) return;
   if (changed || step.dt != m_sharesDt) updateShares(step.dt);
@@ -97,9 +97,9 @@ void WetStiffness::scaleLinks(WetCloth& cloth) {
   }
   m_linksVisited += static_cast<long long>(m_factors.size());
   m_factorsAreStale = false;
-  cloth.masses().setLinkStiffness(m_factors);
+  cloth.linkConstants().setStiffness(m_factors);
   // The commit of this step, if there is one, writes the constants with the new masses.
-  if (!cloth.water().movedSinceCommit()) cloth.masses().refreshLinks();
+  if (!cloth.water().movedSinceCommit()) cloth.linkConstants().refresh();
 }
 
 void WetStiffness::updateShares(double dt) {
