@@ -30,9 +30,7 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 template <class E, class Action>
 void forEach(const command::SceneWorld& world, Action action) {
   for (WetCloth* cloth : world.cloths()) {
-    for (const auto& effect : cloth->effects()) {
-      if (auto* found = dynamic_cast<E*>(effect.get())) action(*found, *cloth);
-    }
+    cloth->forEach<E>([&](E& effect) { action(effect, *cloth); });
   }
 }
 

@@ -173,7 +173,7 @@ TEST_P(WetStiffnessSprings, GoOnAfterACut) {
   for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
     EXPECT_TRUE(std::isfinite(double(scene.node(i).m_x.length2()))) << i;
   }
-  EXPECT_EQ(int(scene.cloth().masses().linkStiffness().size()), scene.body().m_links.size());
+  EXPECT_EQ(int(scene.cloth().linkConstants().stiffness().size()), scene.body().m_links.size());
 }
 
 WETCLOTH_IN_EVERY_WORLD(WetStiffnessSprings);

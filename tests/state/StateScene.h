@@ -65,7 +65,7 @@ class StateScene {
   StateScene& operator=(const StateScene&) = delete;
 
   wetcloth::WetClothWorld& wet() { return *m_wet; }
-  wetcloth::WetCloth& cloth() { return *m_wet->cloths()[0]; }
+  wetcloth::WetCloth& cloth() { return m_wet->cloths()[0]; }
   BulletWorld& bullet() { return m_bullet; }
   btRigidBody& ball() { return m_rigid.back()->body(); }
 
@@ -98,9 +98,9 @@ class StateScene {
         for (int axis = 0; axis < 3; ++axis) numbers.push_back(double(vector[axis]));
       }
     }
-    for (const auto& cloth : m_wet->cloths()) {
-      for (int i = 0; i < cloth->nodeCount(); ++i) numbers.push_back(cloth->held(i));
-      const wetcloth::Ledger ledger = cloth->ledger();
+    for (const wetcloth::WetCloth& cloth : m_wet->cloths()) {
+      for (int i = 0; i < cloth.nodeCount(); ++i) numbers.push_back(cloth.held(i));
+      const wetcloth::Ledger ledger = cloth.ledger();
       for (const double number : {ledger.absorbed, ledger.dripped, ledger.evaporated, ledger.runOff}) {
         numbers.push_back(number);
       }

@@ -102,7 +102,7 @@ inline void addTransportOrLoss(wetcloth::WetCloth& cloth, const std::string& nam
 
 inline void addMechanics(wetcloth::WetCloth& cloth, const std::string& name, const Choice& choice) {
   if (name == "wet_stiffness") {
-    const bool hasSprings = !cloth.effects().empty() && cloth.effects().back()->name() == std::string("HookeSprings");
+    const bool hasSprings = !cloth.effects().empty() && cloth.effects().back().name() == std::string("HookeSprings");
     const bool mayChange = hasSprings || !cloth.isInDeformableWorld();
     cloth.add<wetcloth::WetStiffness>({mayChange ? choice.number(0.05, 20) : 1, mayChange ? choice.number(0.05, 20) : 1,
                                        choice.number(0.01, 1000), choice.number(0.01, 1000)});

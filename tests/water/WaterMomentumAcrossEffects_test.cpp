@@ -274,7 +274,7 @@ TEST_P(WaterMomentumBetweenCloths, ACutAfterTheStepFindsNothingPending) {
                 1e-6 * two.first->totalMass());
   }
   const double mass = two.first->totalMass();
-  two.second->remove(*two.second->effects().front());
+  two.second->remove(two.second->effects().front());
   ASSERT_TRUE(body.cutLink(body.m_faces[0].m_n[0], body.m_faces[0].m_n[1], btScalar(0.5)));
   two.step(1e-3);
   // Bullet's sharing of the cut node's mass is rounded, and a new node's dry mass has a least value.
