@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <cmath>
@@ -37,10 +38,7 @@ void Dripping::setHoldingSaturation(double holdingSaturation) {
 void Dripping::setOnDrip(std::function<void(const Drip&)> onDrip) { m_parameters.onDrip = std::move(onDrip); }
 
 void Dripping::attach(WetCloth& cloth) {
-  if (cloth.body().m_faces.size() == 0) {
-    rejectValue("Dripping: body.m_faces.size()", 0,
-                "at least 1: low points are found along the edges of triangles, and a rope has none");
-  }
+  requireFaces("Dripping", cloth.body());
   m_mesh = &cloth.restMesh();
   const std::size_t nodes = cloth.water().size();
   m_carry.assign(nodes, 0);

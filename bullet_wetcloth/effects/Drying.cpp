@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -94,9 +95,7 @@ void Drying::setExposure(Exposure exposure) {
 }
 
 void Drying::attach(WetCloth& cloth) {
-  if (cloth.body().m_faces.size() == 0) {
-    rejectValue("Drying: body.m_faces.size()", 0, "at least 1: water dries by area, and a rope has none");
-  }
+  requireFaces("Drying", cloth.body());
   const bool firstTime = m_carry.empty();
   if (firstTime) m_parameters.exposure.requireSize("Drying.exposure", cloth.water().size());
   m_areas = cloth.restMesh().nodeAreas();
