@@ -41,7 +41,7 @@ void Dripping::attach(WetCloth& cloth) {
   requireFaces("Dripping", cloth.body());
   m_mesh = &cloth.restMesh();
   const std::size_t nodes = cloth.water().size();
-  m_carry.assign(nodes, 0);
+  m_carry.reset(nodes);
   // What dripped from nodes that are gone is some other node's to report.
   for (std::size_t i = nodes; i < m_pending.size(); ++i) m_pending[0] += m_pending[i];
   m_pending.resize(nodes, 0);
@@ -95,10 +95,9 @@ void Dripping::shed(Water& water, std::size_t node, double dt) {
   const double exact = held - m_carry[node];
   const double leaving = drippingStep(exact, holding, m_parameters.timeConstant, dt);
   const bool isLast = exact - leaving - holding <= kNegligible * water.capacity(node);
-  // Many small portions would be lost to rounding against a large amount of water; the carry keeps them.
-  const double portion = isLast ? held - holding : leaving + m_carry[node];
-  const double left = water.drip(node, portion);
-  m_carry[node] = isLast ? 0 : portion - left;
+  const auto drip = [&](double mass) { return water.drip(node, mass); };
+  const double left = isLast ? drip(held - holding) : m_carry.pass(node, leaving, drip);
+  if (isLast) m_carry.settle(node);
   m_pending[node] += left;
   m_dripped.add(left);
 }
@@ -115,7 +114,7 @@ void Dripping::report(WetCloth& cloth, const Step& step, std::size_t node) {
 }
 
 void Dripping::transferState(StateArchive& archive) {
-  archive.array(m_carry);
+  m_carry.transferState(archive);
   archive.array(m_pending);
   m_dripped.transferState(archive);
   m_steadyState.transferState(archive);

@@ -89,17 +89,17 @@ void Drying::setAir(WindField air) {
 
 void Drying::setExposure(Exposure exposure) {
   exposure.requireValid("Drying.exposure");
-  if (!m_carry.empty()) exposure.requireSize("Drying.exposure", m_carry.size());
+  if (m_carry.size() > 0) exposure.requireSize("Drying.exposure", m_carry.size());
   m_parameters.exposure = std::move(exposure);
   m_isDry = m_hasNormals = false;
 }
 
 void Drying::attach(WetCloth& cloth) {
   requireFaces("Drying", cloth.body());
-  const bool firstTime = m_carry.empty();
+  const bool firstTime = m_carry.size() == 0;
   if (firstTime) m_parameters.exposure.requireSize("Drying.exposure", cloth.water().size());
   m_areas = cloth.restMesh().nodeAreas();
-  m_carry.assign(cloth.water().size(), 0);
+  m_carry.reset(cloth.water().size());
   m_isDry = m_hasNormals = false;
 }
 
@@ -147,15 +147,18 @@ bool Drying::dry(WetCloth& cloth, const Step& step, std::size_t node) {
   const double exact = held - m_carry[node];
   const double leaving = dryingStep(exact, m_parameters.criticalSaturation * water.capacity(node), rate, step.dt);
   const bool isLast = exact - leaving <= kNegligible * water.capacity(node);
-  // Many small portions would be lost to rounding against a large amount of water; the carry keeps them.
-  const double portion = isLast ? held : leaving + m_carry[node];
-  const double left = water.evaporate(node, portion);
-  m_carry[node] = isLast ? 0 : portion - left;
-  return isLast;
+  const auto evaporate = [&](double mass) { return water.evaporate(node, mass); };
+  if (!isLast) {
+    m_carry.pass(node, leaving, evaporate);
+    return false;
+  }
+  evaporate(held);
+  m_carry.settle(node);
+  return true;
 }
 
 void Drying::transferState(StateArchive& archive) {
-  archive.array(m_carry);
+  m_carry.transferState(archive);
   archive.value(m_dryRevision, m_isDry, m_hasNormals, m_nodesVisited);
 }
 
