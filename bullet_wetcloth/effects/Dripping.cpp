@@ -31,7 +31,7 @@ Dripping::Dripping(Parameters parameters) : m_parameters(std::move(parameters)) 
 void Dripping::setHoldingSaturation(double holdingSaturation) {
   requireFraction("Dripping.holdingSaturation", holdingSaturation);
   m_parameters.holdingSaturation = holdingSaturation;
-  m_hasNoExcess = false;
+  m_nothingLeft.restart();
   m_steadyState.restart();
 }
 
@@ -45,7 +45,7 @@ void Dripping::attach(WetCloth& cloth) {
   // What dripped from nodes that are gone is some other node's to report.
   for (std::size_t i = nodes; i < m_pending.size(); ++i) m_pending[0] += m_pending[i];
   m_pending.resize(nodes, 0);
-  m_hasNoExcess = false;
+  m_nothingLeft.restart();
   m_steadyState.restart();
 }
 
@@ -53,7 +53,7 @@ void Dripping::apply(WetCloth& cloth, const Step& step) {
   const btScalar gravity = step.gravity.length();
   if (!(gravity > 0 && std::isfinite(gravity))) return;
   Water& water = cloth.water();
-  if (m_hasNoExcess && m_revisionWithoutExcess == water.revision()) return;
+  if (m_nothingLeft.holds(water)) return;
   if (m_steadyState.isReached(cloth, step)) return;
 
   const btVector3 down = step.gravity / gravity;
@@ -69,8 +69,7 @@ void Dripping::apply(WetCloth& cloth, const Step& step) {
     report(cloth, step, i);
   }
   m_nodesVisited += static_cast<long long>(m_carry.size());
-  m_hasNoExcess = !hasExcess;
-  m_revisionWithoutExcess = water.revision();
+  m_nothingLeft.note(water, !hasExcess);
   // However slowly a node drips, it drips on: only when none does may the cloth's shape decide when to look again.
   m_steadyState.note(cloth, step, drips ? water.totalCapacity() : 0);
 }
@@ -118,7 +117,8 @@ void Dripping::transferState(StateArchive& archive) {
   archive.array(m_pending);
   m_dripped.transferState(archive);
   m_steadyState.transferState(archive);
-  archive.value(m_drops, m_revisionWithoutExcess, m_hasNoExcess, m_nodesVisited);
+  m_nothingLeft.transferState(archive);
+  archive.value(m_drops, m_nodesVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Effect.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
+#include "bullet_wetcloth/numerics/NothingLeft.h"
 #include "bullet_wetcloth/numerics/RoundingCarry.h"
 #include "bullet_wetcloth/numerics/SteadyState.h"
 #include "bullet_wetcloth/water/Water.h"
@@ -96,8 +97,7 @@ class Dripping : public Effect {
   CompensatedSum m_dripped;
   long long m_drops = 0;
   SteadyState m_steadyState{SteadyState::DependsOn::waterAndShape};
-  unsigned long long m_revisionWithoutExcess = 0;
-  bool m_hasNoExcess = false;
+  NothingLeft m_nothingLeft;  // above the holding capacity
   long long m_nodesVisited = 0;
 };
 

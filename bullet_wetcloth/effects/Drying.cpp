@@ -91,7 +91,8 @@ void Drying::setExposure(Exposure exposure) {
   exposure.requireValid("Drying.exposure");
   if (m_carry.size() > 0) exposure.requireSize("Drying.exposure", m_carry.size());
   m_parameters.exposure = std::move(exposure);
-  m_isDry = m_hasNormals = false;
+  m_nothingLeft.restart();
+  m_hasNormals = false;
 }
 
 void Drying::attach(WetCloth& cloth) {
@@ -100,11 +101,12 @@ void Drying::attach(WetCloth& cloth) {
   if (firstTime) m_parameters.exposure.requireSize("Drying.exposure", cloth.water().size());
   m_areas = cloth.restMesh().nodeAreas();
   m_carry.reset(cloth.water().size());
-  m_isDry = m_hasNormals = false;
+  m_nothingLeft.restart();
+  m_hasNormals = false;
 }
 
 void Drying::apply(WetCloth& cloth, const Step& step) {
-  if (m_stillAirRate == 0 || (m_isDry && m_dryRevision == cloth.water().revision())) return;
+  if (m_stillAirRate == 0 || m_nothingLeft.holds(cloth.water())) return;
   if (m_parameters.exposure.isFunction() && !m_hasNormals) {
     // Bullet computes normals at the end of a step: a body that has never stepped has none yet.
     cloth.body().updateNormals();
@@ -116,8 +118,7 @@ void Drying::apply(WetCloth& cloth, const Step& step) {
     isDry = isDry && isNodeDry;
   }
   m_nodesVisited += static_cast<long long>(m_carry.size());
-  m_isDry = isDry;
-  m_dryRevision = cloth.water().revision();
+  m_nothingLeft.note(cloth.water(), isDry);
 }
 
 double Drying::rateOf(const WetCloth& cloth, const Step& step, std::size_t node) const {
@@ -159,7 +160,8 @@ bool Drying::dry(WetCloth& cloth, const Step& step, std::size_t node) {
 
 void Drying::transferState(StateArchive& archive) {
   m_carry.transferState(archive);
-  archive.value(m_dryRevision, m_isDry, m_hasNormals, m_nodesVisited);
+  m_nothingLeft.transferState(archive);
+  archive.value(m_hasNormals, m_nodesVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

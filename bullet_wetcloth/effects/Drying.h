@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Effect.h"
 #include "bullet_wetcloth/effects/Exposure.h"
 #include "bullet_wetcloth/effects/WindField.h"
+#include "bullet_wetcloth/numerics/NothingLeft.h"
 #include "bullet_wetcloth/numerics/RoundingCarry.h"
 
 #include <cstddef>
@@ -80,8 +81,7 @@ class Drying : public Effect {
   double m_stillAirRate = 0;  // of all sides [kg/m^2/s]
   std::vector<double> m_areas;
   RoundingCarry m_carry;
-  unsigned long long m_dryRevision = 0;
-  bool m_isDry = false;
+  NothingLeft m_nothingLeft;
   bool m_hasNormals = false;
   long long m_nodesVisited = 0;
 };
