@@ -6,6 +6,7 @@
 #include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/audit/PassageFinder.h"
 #include "bullet_wetcloth/audit/SweptFaces.h"
+#include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <LinearMath/btIDebugDraw.h>
@@ -87,9 +88,7 @@ AuditTotals CollisionAudit::totals() const {
 
 void CollisionAudit::attach(WetCloth& cloth) {
   const btSoftBody& body = cloth.body();
-  if (body.m_faces.size() == 0) {
-    rejectValue("CollisionAudit: body.m_faces.size()", 0, "at least 1: a rope has nothing that it looks at");
-  }
+  requireFaces("CollisionAudit", body);
   m_cloth = &cloth;
   m_own->build(body);
   reset();
