@@ -41,7 +41,7 @@ struct Step {
 /// - it changes water only through WetCloth::water(), and velocities only through WetCloth::push(); water that leaves a
 ///   node takes the velocity that the node has after WetCloth::joinArrivals(); at the stage `contact` it changes
 ///   neither: the position-based worlds would lose the velocities, and the commit has been.
-class Effect {
+class WETCLOTH_EXPORT Effect {
  public:
   virtual ~Effect() = default;
   virtual const char* name() const = 0;

@@ -16,7 +16,7 @@ inline namespace WETCLOTH_PRECISION {
 /// Puts water into nodes up to their capacity, and loses none of it to rounding: many small portions would be lost
 /// against a large amount of water, so what a node took but its rounded water could not show yet is carried to the
 /// next portion. A member of each effect that is a source.
-class NodeUptake {
+class WETCLOTH_EXPORT NodeUptake {
  public:
   /// Nothing carried, for this many nodes.
   void reset(std::size_t nodes) { m_carry.assign(nodes, 0); }
