@@ -46,7 +46,7 @@ struct Step {
 ///   node takes the velocity that the node has after WetCloth::joinArrivals(); at the stage `contact` it changes
 ///   neither: the position-based worlds would lose the velocities, and the commit has been; at the stage `observe` it
 ///   changes nothing at all.
-class Effect {
+class WETCLOTH_EXPORT Effect {
  public:
   virtual ~Effect() = default;
   virtual const char* name() const = 0;

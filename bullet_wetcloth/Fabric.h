@@ -14,7 +14,7 @@ inline namespace WETCLOTH_PRECISION {
 ///
 /// Absorption follows Q(t) = capacity (1 - exp(-t / timeConstant)) (Basori et al. 2017, Eq. 2; the constants of
 /// their Table I come from Chen et al. 2012).
-struct Fabric {
+struct WETCLOTH_EXPORT Fabric {
   std::string name = "custom";
 
   /// Water held at saturation per dry mass, the paper's alpha [kg/kg], (0, inf).
@@ -51,7 +51,7 @@ struct Fabric {
 };
 
 /// Throws std::invalid_argument naming the field and its value when a field is out of its range.
-void requireValid(const Fabric& fabric);
+WETCLOTH_EXPORT void requireValid(const Fabric& fabric);
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

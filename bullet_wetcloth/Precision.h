@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "bullet_wetcloth/Export.h"
+
 #include <LinearMath/btScalar.h>
 
 // Bullet's float32 and float64 builds share every symbol name, so a program that mixes them links cleanly and

@@ -29,7 +29,7 @@ class WetClothWorld;
 /// One btSoftBody of an application, its water, its fabric and its effects. Made by WetClothWorld::add().
 ///
 /// Units are SI. Nodes are numbered as in btSoftBody::m_nodes.
-class WetCloth {
+class WETCLOTH_EXPORT WetCloth {
  public:
   WetCloth(const WetCloth&) = delete;
   WetCloth& operator=(const WetCloth&) = delete;

@@ -32,7 +32,7 @@ enum class Hook {
 /// application keeps its world, its bodies, its loop and its callbacks; nothing here deletes them. Destroy the
 /// WetClothWorld before the world, and remove() a cloth before its body is deleted. One object belongs to one
 /// thread at a time; different worlds may run in different threads.
-class WetClothWorld {
+class WETCLOTH_EXPORT WetClothWorld {
  public:
   /// Attaches to a world. An application's own callbacks go on being called, first, and the world's user info is not
   /// touched. Throws std::invalid_argument when the world is of another kind or has a WetClothWorld.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Zlib
 // An effect of your own: a hair dryer that takes water out of the cloth where a function says.
 
-#include <bullet_wetcloth/DryMass.h>
 #include <bullet_wetcloth/Require.h>
 #include <bullet_wetcloth/bullet_wetcloth.h>
+#include <bullet_wetcloth/water/DryMass.h>
 
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>

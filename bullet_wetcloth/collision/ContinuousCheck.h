@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "bullet_wetcloth/Export.h"
 #include "bullet_wetcloth/collision/Query.h"
 
 #include <cstddef>
@@ -37,7 +38,7 @@ struct CheckSettings {
 ///
 /// Allocates nothing, but for Tier::exact on coordinates of such different sizes that its integers outgrow 4096 bits;
 /// if memory runs out there, the program ends.
-class ContinuousCheck {
+class WETCLOTH_COLLISION_EXPORT ContinuousCheck {
  public:
   /// Throws std::invalid_argument naming the field and the value when a setting is out of range, and
   /// std::runtime_error for Tier::exact in a build without it.

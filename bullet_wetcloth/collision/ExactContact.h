@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "bullet_wetcloth/Export.h"
 #include "bullet_wetcloth/collision/Query.h"
 
 namespace wetcloth::collision {
@@ -10,6 +11,6 @@ namespace wetcloth::collision {
 ///
 /// The returned `time` is a double not later than the exact first time of contact and earlier by at most `tolerance`
 /// (in [1e-12, 1]); `where` is left 0.
-Contact exactContact(Pair pair, const Query<double>& query, double tolerance);
+WETCLOTH_COLLISION_EXPORT Contact exactContact(Pair pair, const Query<double>& query, double tolerance);
 
 }  // namespace wetcloth::collision

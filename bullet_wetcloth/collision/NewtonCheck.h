@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "bullet_wetcloth/Export.h"
 #include "bullet_wetcloth/collision/Query.h"
 
 namespace wetcloth::collision {
@@ -11,6 +12,6 @@ namespace wetcloth::collision {
 /// or are within the tolerance of zero, is searched by Newton's method safeguarded with bisection; then an inside test
 /// with `tolerance` (>= 0, in barycentric weights and in time). In double precision.
 template <class Scalar>
-Contact newtonCheck(Pair pair, const Query<Scalar>& query, double tolerance) noexcept;
+WETCLOTH_COLLISION_EXPORT Contact newtonCheck(Pair pair, const Query<Scalar>& query, double tolerance) noexcept;
 
 }  // namespace wetcloth::collision

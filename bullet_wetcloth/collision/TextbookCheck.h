@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "bullet_wetcloth/Export.h"
 #include "bullet_wetcloth/collision/Query.h"
 
 namespace wetcloth::collision {
@@ -12,6 +13,6 @@ namespace wetcloth::collision {
 /// `tolerance` (>= 0) is how far outside [0, 1], the face or the edges (in barycentric weights) still counts; 0 is the
 /// strict inside test. Scalar (float or double) is the precision that all of it is done in.
 template <class Scalar>
-Contact textbookCheck(Pair pair, const Query<Scalar>& query, Scalar tolerance) noexcept;
+WETCLOTH_COLLISION_EXPORT Contact textbookCheck(Pair pair, const Query<Scalar>& query, Scalar tolerance) noexcept;
 
 }  // namespace wetcloth::collision

@@ -14,13 +14,13 @@ inline namespace WETCLOTH_PRECISION {
 /// Share of its free capacity that a node fills in dt, exact for any dt: 1 - exp(-rate), from dw/dt = e (C - w) /
 /// theta (Basori et al. 2017, Eq. 2, with an exposure e).
 /// @param rate  e dt / theta [-], >= 0
-double exponentialShare(double rate);
+WETCLOTH_EXPORT double exponentialShare(double rate);
 
 /// The same by forward Euler, the paper's own integrator (Eq. 1): rate, at most 1.
-double eulerShare(double rate);
+WETCLOTH_EXPORT double eulerShare(double rate);
 
 /// Soaks a cloth: each node takes up water according to how far it is exposed to it.
-class Absorption : public Effect {
+class WETCLOTH_EXPORT Absorption : public Effect {
  public:
   enum class Law {
     exponential,   ///< Eq. 2, exact for any step

@@ -26,7 +26,7 @@ struct BondImpulse {
 /// @param needed  the impulse that would keep the node in place [N s]
 /// @param normal  out of the surface, of length 1
 /// @param pull, shear  stress x area x dt [N s], >= 0
-BondImpulse bondImpulse(const btVector3& needed, const btVector3& normal, double pull, double shear);
+WETCLOTH_EXPORT BondImpulse bondImpulse(const btVector3& needed, const btVector3& normal, double pull, double shear);
 
 /// Holds a wet cloth on a surface that it touches, until it is pulled off with more than a force per area.
 ///
@@ -42,7 +42,7 @@ BondImpulse bondImpulse(const btVector3& needed, const btVector3& normal, double
 ///
 /// Objects without contact response and links of multi-bodies are left out. Stresses follow the saturation: 0 at
 /// `minimumSaturation` and below, all at `peakSaturation`, `floodedShare` at 1.
-class Cling : public Effect {
+class WETCLOTH_EXPORT Cling : public Effect {
  public:
   struct Parameters {
     double adhesion = 50;            ///< pull that a bond holds [Pa], [0, inf)

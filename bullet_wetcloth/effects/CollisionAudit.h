@@ -56,7 +56,7 @@ struct AuditTotals {
 /// the effect was added, after reset(), and the one in which a body was cut, or was out of the world, is not looked at.
 ///
 /// Two cloths that both have an audit: the pairs between them are counted by the one that was added first.
-class CollisionAudit : public Effect {
+class WETCLOTH_EXPORT CollisionAudit : public Effect {
  public:
   struct Parameters {
     bool self = true;    ///< pairs within this cloth

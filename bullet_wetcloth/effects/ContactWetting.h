@@ -21,14 +21,14 @@ struct RigidContact;
 /// @param held, capacity  w and C [kg]
 /// @param conductance  k A dt: rate x area x dt [kg]
 /// @param film  what is there [kg]
-double filmUptake(double held, double capacity, double conductance, double film);
+WETCLOTH_EXPORT double filmUptake(double held, double capacity, double conductance, double film);
 
 /// Water that goes from a to b in dt when it flows by the difference of their saturations, exact for any dt: from
 /// dw_b/dt = G (s_a - s_b), (s_a - s_b) (1 - exp(-G dt (r_a + r_b))) / (r_a + r_b); < 0 when it goes from b to a.
 /// @param difference  s_a - s_b [-]
 /// @param responseA, responseB  change of the saturation per water, r: 1/capacity for a node [1/kg], sum > 0
 /// @param conductance  G dt [kg]
-double equalisingFlow(double difference, double responseA, double responseB, double conductance);
+WETCLOTH_EXPORT double equalisingFlow(double difference, double responseA, double responseB, double conductance);
 
 /// Wets a cloth where it touches something wet: a rigid body with a film of water on it, or another WetCloth.
 ///
@@ -40,7 +40,7 @@ double equalisingFlow(double difference, double responseA, double responseB, dou
 /// One of two cloths needs the effect. If both have it, the one that was added to the WetClothWorld first sees to the
 /// pair. Contacts are those of the last substep; of a sleeping cloth those of when it fell asleep, but for a rigid body
 /// that has been moved since. The first step in which another cloth is met may allocate.
-class ContactWetting : public Effect {
+class WETCLOTH_EXPORT ContactWetting : public Effect {
  public:
   /// A rigid body (or any collision object that is not soft) with water on it.
   struct WetBody {

@@ -16,11 +16,11 @@ class DiffusionSolver;
 class EdgeFlow;
 
 /// Diffusivity at a saturation over that at saturation 1: s^exponent [-], of a saturation in [0, 1].
-double relativeDiffusivity(double saturation, double exponent);
+WETCLOTH_EXPORT double relativeDiffusivity(double saturation, double exponent);
 
 /// Its integral from 0 (Kirchhoff 1894): Phi(s) = s^(exponent + 1) / (exponent + 1) [-], whose gradient drives the
 /// flow.
-double diffusionPotential(double saturation, double exponent);
+WETCLOTH_EXPORT double diffusionPotential(double saturation, double exponent);
 
 /// Wicking: water spreads over the cloth from wet to dry.
 ///
@@ -31,7 +31,7 @@ double diffusionPotential(double saturation, double exponent);
 /// Over the triangles at rest, with cotangent weights made Delaunay (delaunayWeights()), so that a bent cloth wicks
 /// like a flat one and obtuse triangles do no harm. Conserves water to rounding, and keeps every node between empty and
 /// full, for any step. Water takes the velocity of the node that it leaves.
-class Diffusion : public Effect {
+class WETCLOTH_EXPORT Diffusion : public Effect {
  public:
   enum class Method {
     /// Implicit, one sparse factorisation for many steps: a step is two triangular solves. Stable for any step.

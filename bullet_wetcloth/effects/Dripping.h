@@ -21,11 +21,11 @@ inline namespace WETCLOTH_PRECISION {
 /// from dw/dt = -(w - H) / tau while w > H; 0 at or below H. A linear reservoir (Maillet 1905), as drainage after
 /// saturation is modelled in canopies (Rutter et al. 1971 have the rate grow faster than that).
 /// @param held w [kg]; @param holding H, water that surface tension keeps [kg]; @param timeConstant tau [s], > 0
-double drippingStep(double held, double holding, double timeConstant, double dt);
+WETCLOTH_EXPORT double drippingStep(double held, double holding, double timeConstant, double dt);
 
 /// Whether `other` lies lower than x by more than `slopeTolerance` times their distance.
 /// @param down  unit vector along gravity
-bool isLower(const btVector3& other, const btVector3& x, const btVector3& down, double slopeTolerance);
+WETCLOTH_EXPORT bool isLower(const btVector3& other, const btVector3& x, const btVector3& down, double slopeTolerance);
 
 /// A drop that has fallen from a cloth. The library does not follow it: an application may make a particle of it.
 struct Drip {
@@ -42,7 +42,7 @@ struct Drip {
 ///
 /// Water leaves the cloth continuously, with its node's velocity; it is reported in drops. Pinned nodes drip, too.
 /// Without gravity nothing drips.
-class Dripping : public Effect {
+class WETCLOTH_EXPORT Dripping : public Effect {
  public:
   struct Parameters {
     /// Saturation that a node keeps, [0, 1]. A guess: no measured value for hung cloth was found.

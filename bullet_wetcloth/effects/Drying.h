@@ -15,26 +15,26 @@ inline namespace WETCLOTH_PRECISION {
 
 /// Pressure of water vapour over water at this temperature [Pa] (Tetens 1930): 610.8 exp(17.27 T / (T + 237.3)).
 /// @param temperature T [degC], within 0.2 % in [0, 60]
-double saturationVapourPressure(double temperature);
+WETCLOTH_EXPORT double saturationVapourPressure(double temperature);
 
 /// Water that a wet surface gives to the air [kg/m^2/s], for each side: the aerodynamic term of Penman (1948) in the
 /// units of Shuttleworth (1993, Eq. 4.2.30), 6.43 MJ/m^2/day/kPa (1 + 0.536 u) e_s(T) (1 - RH) / lambda with lambda
 /// 2.45 MJ/kg. The surface is as warm as the air: see Drying::Parameters::selfCooling.
 /// @param temperature T [degC]; @param relativeHumidity RH, [0, 1]; @param airSpeed u, relative to the surface [m/s]
-double evaporationRate(double temperature, double relativeHumidity, double airSpeed);
+WETCLOTH_EXPORT double evaporationRate(double temperature, double relativeHumidity, double airSpeed);
 
 /// Water that dries off in dt [kg], exact for any dt and across the change of stage (two periods of drying: Sherwood
 /// 1929): dw/dt = -rate while w > w_c, -rate w / w_c below.
 /// @param held w [kg], >= 0; @param critical w_c [kg], > 0; @param rate E A [kg/s], >= 0; @param dt [s], >= 0
-double dryingStep(double held, double critical, double rate, double dt);
+WETCLOTH_EXPORT double dryingStep(double held, double critical, double rate, double dt);
 
 /// Time in which `from` dries down to `to` by the same law [s]: infinite when `to` or the rate is 0, and 0 when there
 /// is nothing to dry.
-double dryingTime(double from, double to, double critical, double rate);
+WETCLOTH_EXPORT double dryingTime(double from, double to, double critical, double rate);
 
 /// Lets a cloth dry: each node loses water by its area at rest, at a constant rate as long as its surface is wet, then
 /// in proportion to what is left. Does not know what is under water or indoors: that is for `exposure` to say.
-class Drying : public Effect {
+class WETCLOTH_EXPORT Drying : public Effect {
  public:
   struct Parameters {
     double temperature = 20;        ///< of the air and the cloth [degC], [0, 60]

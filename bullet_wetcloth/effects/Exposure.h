@@ -15,7 +15,7 @@ inline namespace WETCLOTH_PRECISION {
 
 /// How far each node is in contact with water, in [0, 1]: a constant, an array with one value per node, or a
 /// function of the node's position and unit normal.
-class Exposure {
+class WETCLOTH_EXPORT Exposure {
  public:
   using Function = std::function<double(const btVector3& position, const btVector3& normal)>;
 

@@ -19,7 +19,7 @@ struct SpringNode;
 /// Force of a spring on its end `a` [N] (Basori et al. 2017, Eq. 5 and 6 with the unit vector that Eq. 6 lost):
 /// K (|b - a| - l0) along b - a. Zero when the ends coincide.
 /// @param restLength l0 [m]; @param stiffness K [N/m]
-btVector3 hookeForce(const btVector3& a, const btVector3& b, double restLength, double stiffness);
+WETCLOTH_EXPORT btVector3 hookeForce(const btVector3& a, const btVector3& b, double restLength, double stiffness);
 
 /// Makes the links true springs, so that a cloth stretches under its weight, wet more than dry.
 ///
@@ -33,7 +33,7 @@ btVector3 hookeForce(const btVector3& a, const btVector3& b, double restLength, 
 /// use those or this, not both.
 ///
 /// K follows LinkConstants::setStiffness(), which WetStiffness sets, in whatever order the two are added.
-class HookeSprings : public Effect {
+class WETCLOTH_EXPORT HookeSprings : public Effect {
  public:
   struct Parameters {
     double stiffness = 1000;       ///< K of the links [N/m], (0, inf)

@@ -16,14 +16,14 @@ inline namespace WETCLOTH_PRECISION {
 /// surface, 0 at it and above (Basori et al. 2017, Eq. 2, with an exposure of 1 below).
 /// @param depth  below the surface [m], negative above it
 /// @param dt     [s]; @param timeConstant  theta [s]
-double immersionShare(double depth, double dt, double timeConstant);
+WETCLOTH_EXPORT double immersionShare(double depth, double dt, double timeConstant);
 
 /// A cloth in a body of water: nodes below its surface soak by the fabric's own law, where they are in each step.
 ///
 /// Idles while every node is full, and once nothing has been left to soak for 64 steps: until the surface, the
 /// cloth's water or its shape changes. A shape that sinks towards the surface is noticed before it is there, and any
 /// other change as SteadyState says.
-class Immersion : public Effect {
+class WETCLOTH_EXPORT Immersion : public Effect {
  public:
   struct Parameters {
     /// The water; none: what the application has given to Bullet (btSoftBodyWorldInfo::water_normal, water_offset),

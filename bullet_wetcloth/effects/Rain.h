@@ -14,7 +14,7 @@ inline namespace WETCLOTH_PRECISION {
 /// against the rain catches no more of it.
 ///
 /// Idles while the flux is 0.
-class Rain : public Effect {
+class WETCLOTH_EXPORT Rain : public Effect {
  public:
   struct Parameters {
     btVector3 direction = btVector3(0, -1, 0);  ///< in which the drops fall, of any length > 0

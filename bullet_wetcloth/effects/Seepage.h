@@ -14,15 +14,15 @@ class EdgeFlow;
 
 /// Conductivity of a partly saturated cloth over that of a saturated one: s^exponent [-] (Brooks & Corey 1964; 3 for
 /// thin films, Irmay 1954), of a saturation in [0, 1].
-double relativeConductivity(double saturation, double exponent);
+WETCLOTH_EXPORT double relativeConductivity(double saturation, double exponent);
 
 /// Water that gravity drives along an edge [kg/s], towards its lower end if > 0: Darcy's law,
 /// conductance speed s^exponent drop, with the saturation s of the upper end (upwind).
 /// @param conductance  capacity per area times the edge's width over its length [kg/m^2]
 /// @param speed  at saturation [m/s]
 /// @param drop   from the first end down to the second, along gravity [m]
-double seepageFlow(double conductance, double speed, double exponent, double firstSaturation, double secondSaturation,
-                   double drop);
+WETCLOTH_EXPORT double seepageFlow(double conductance, double speed, double exponent, double firstSaturation,
+                                   double secondSaturation, double drop);
 
 /// Gravity pulls water down inside the cloth, along its present shape.
 ///
@@ -31,7 +31,7 @@ double seepageFlow(double conductance, double speed, double exponent, double fir
 /// is saturated, so water pools at the lower hem; Dripping takes it from there. Explicit, in as many substeps as the
 /// fastest wave asks for, 64 at most; beyond those water lags behind, but stays within bounds. Conserves water to
 /// rounding.
-class Seepage : public Effect {
+class WETCLOTH_EXPORT Seepage : public Effect {
  public:
   struct Parameters {
     /// v of saturated cloth hanging straight down under 9.81 m/s^2 [m/s], >= 0; it grows with gravity. The default is a

@@ -13,11 +13,11 @@ inline namespace WETCLOTH_PRECISION {
 /// Flux in the drops of a hose [kg/m^2/s], at a distance r from its mouth: flux (reach / r)^2, so that the same flow
 /// goes through every cross-section. Nearer than reach / 100, the size of the mouth, it grows no more.
 /// @param distance  r [m]; @param flux  at r = reach [kg/m^2/s]; @param reach  [m]
-double coneFlux(double distance, double flux, double reach);
+WETCLOTH_EXPORT double coneFlux(double distance, double flux, double reach);
 
 /// Water that such a hose gives [kg/s]: flux x the cap of a sphere of radius `reach`, 2 pi (1 - cos h) reach^2 flux.
 /// @param halfAngle  h [rad]
-double coneFlow(double halfAngle, double flux, double reach);
+WETCLOTH_EXPORT double coneFlow(double halfAngle, double flux, double reach);
 
 /// Water thrown at the cloth within a sphere, or from a hose. Each triangle whose centroid is inside catches flux x
 /// projected area (caughtFlux()), on either side. Nodes take what they can hold; the rest runs off (Ledger::runOff).
@@ -26,7 +26,7 @@ double coneFlow(double halfAngle, double flux, double reach);
 ///
 /// Idles while the flux is 0, and once nothing has been struck for 64 steps: until the region or the cloth's shape
 /// changes (SteadyState).
-class Splash : public Effect {
+class WETCLOTH_EXPORT Splash : public Effect {
  public:
   /// A stream of the same flux and velocity everywhere; it carries pi radius^2 flux.
   struct Sphere {

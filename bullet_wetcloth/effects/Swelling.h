@@ -14,7 +14,7 @@ inline namespace WETCLOTH_PRECISION {
 
 /// Relative change of a rest length, linear in saturation: saturatedStrain x saturation [-].
 /// @param saturation  [0, 1]
-double swellingStrain(double saturation, double saturatedStrain);
+WETCLOTH_EXPORT double swellingStrain(double saturation, double saturatedStrain);
 
 /// Rest lengths by saturation: l = l0 (1 + strain), the same along warp and weft. Fibres that swell make yarns thicker,
 /// and a woven cloth shorter; what dries gets its natural lengths l0 back, bit for bit.
@@ -25,7 +25,7 @@ double swellingStrain(double saturation, double saturatedStrain);
 /// present shape for the shape at rest (a body was cut, or setMass() was used), that is the shape of the wet cloth.
 ///
 /// The shape that btSoftBody::setPose() remembered does not follow: a body with m_cfg.kMT > 0 is drawn back to it.
-class Swelling : public Effect {
+class WETCLOTH_EXPORT Swelling : public Effect {
  public:
   struct Parameters {
     /// Relative change of length at saturation [-], (-0.5, 0.5); negative: shrinks. A yarn of ordinary twist gets 2 %

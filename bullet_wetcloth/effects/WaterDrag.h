@@ -16,14 +16,14 @@ struct FlatTriangle;
 struct FluidResistance;
 
 /// Volume of a piece of wet cloth without the air in it [m^3]: dry mass / fibre density + held water / 1000 kg/m^3.
-double displacedVolume(double dryMass, double fibreDensity, double held);
+WETCLOTH_EXPORT double displacedVolume(double dryMass, double fibreDensity, double held);
 
 /// Speed at which a level sheet sinks in the end [m/s], wet or dry, since water in water weighs nothing; negative: it
 /// rises. Balance of its weight in water and of its resistance: v^2 = 2 sigma (1 - rho / rho_f) g / (rho C_d).
 /// @param arealDensity sigma, dry [kg/m^2]; @param fibreDensity rho_f, @param waterDensity rho [kg/m^3]
 /// @param dragCoefficient C_d [-]; @param gravity g [m/s^2]
-double sinkingSpeed(double arealDensity, double fibreDensity, double waterDensity, double dragCoefficient,
-                    double gravity);
+WETCLOTH_EXPORT double sinkingSpeed(double arealDensity, double fibreDensity, double waterDensity,
+                                    double dragCoefficient, double gravity);
 
 /// Resistance and buoyancy of what is below a water surface, node by node: a triangle's force goes to those of its
 /// corners that are under water.
@@ -35,7 +35,7 @@ double sinkingSpeed(double arealDensity, double fibreDensity, double waterDensit
 ///
 /// Wind knows of no water: what is submerged feels it, too, at an 800th of the force. A body whose m_cfg.kDG or kLF
 /// is set (Bullet's default is 0) also feels Bullet's own aerodynamics.
-class WaterDrag : public Effect {
+class WETCLOTH_EXPORT WaterDrag : public Effect {
  public:
   struct Parameters {
     /// None: the surface that the application has given to Bullet (btSoftBodyWorldInfo::water_normal and so on), as it

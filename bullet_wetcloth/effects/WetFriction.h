@@ -17,7 +17,7 @@ struct RigidContact;
 /// outside of it, so a coefficient of 1 and more holds the node fast.
 /// @param friction  mu, of both bodies together [-], >= 0; above 1 it counts as 1: more would turn the motion round
 /// @param normal, tangential  the node's motion in the substep relative to the body, in two parts
-btScalar slidingShare(btScalar friction, btScalar normal, const btVector3& tangential);
+WETCLOTH_EXPORT btScalar slidingShare(btScalar friction, btScalar normal, const btVector3& tangential);
 
 /// Friction by the wetness of what touches: the coefficient that Bullet combined for a contact is multiplied by a
 /// factor that goes from 1 (dry) to `wetFactor` at `peakSaturation` and on to `floodedFactor` at saturation 1.
@@ -27,7 +27,7 @@ btScalar slidingShare(btScalar friction, btScalar normal, const btVector3& tange
 /// kDF x the object's friction for rigid bodies; for two soft bodies, in the position-based worlds, the larger of the
 /// two, each with the factor of its own WetFriction. What the deformable world does between two soft bodies, it finds
 /// and applies after its solve, where nobody can reach it.
-class WetFriction : public Effect {
+class WETCLOTH_EXPORT WetFriction : public Effect {
  public:
   struct Parameters {
     double wetFactor = 2.5;       ///< at peakSaturation [-], [0, inf)

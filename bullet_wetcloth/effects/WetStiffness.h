@@ -13,18 +13,19 @@ inline namespace WETCLOTH_PRECISION {
 
 /// Factor on the stiffness of a link, linear in its saturation: 1 + (atSaturation - 1) saturation.
 /// @param saturation  [0, 1]; @param atSaturation  the factor at saturation 1, > 0
-double wetStiffnessFactor(double saturation, double atSaturation);
+WETCLOTH_EXPORT double wetStiffnessFactor(double saturation, double atSaturation);
 
 /// Share of the relative velocity along a link that is lost in dt, exact for any dt: 1 - exp(-rate dt), from
 /// du/dt = -rate u. @param rate [1/s], >= 0; @param dt [s]
-double dampingShare(double rate, double dt);
+WETCLOTH_EXPORT double dampingShare(double rate, double dt);
 
 /// Impulse on node b of a link, and the opposite on node a, that takes `share` of the nodes' relative velocity along it
 /// [kg m/s]: share u (b - a) / (|b - a|^2 (1/m_a + 1/m_b)) with u = (v_a - v_b) . (b - a). A partly inelastic impact:
 /// energy falls by (1 - (1 - share)^2) of that of the relative motion, and never grows for a share in [0, 1]. Zero when
 /// the ends coincide or neither can move. @param ab  b - a [m]; @param velocity  v_b - v_a [m/s];
 /// @param inverseMasses  1/m_a + 1/m_b [1/kg], 0 for a pinned end
-btVector3 dampingImpulse(const btVector3& ab, const btVector3& velocity, double inverseMasses, double share);
+WETCLOTH_EXPORT btVector3 dampingImpulse(const btVector3& ab, const btVector3& velocity, double inverseMasses,
+                                         double share);
 
 /// What water does to the stiffness of the links, stretching and bending, and to the damping along them. Each link goes
 /// by its own saturation, the mean of its nodes', and no material is touched: other bodies may share it.
@@ -43,7 +44,7 @@ btVector3 dampingImpulse(const btVector3& ab, const btVector3& velocity, double 
 ///   those are removed again, the factors have nothing to act on.)
 ///
 /// Damping acts in every world, HookeSprings or not.
-class WetStiffness : public Effect {
+class WETCLOTH_EXPORT WetStiffness : public Effect {
  public:
   struct Parameters {
     double wetStretch = 0.8;  ///< factor on the stiffness of structural links at saturation, [0.001, 1000]; a guess

@@ -15,25 +15,27 @@ inline namespace WETCLOTH_PRECISION {
 
 /// The paper's wind force on a triangle (Basori et al. 2017, Fig. 6): n_hat (n_hat . wind), which has neither an
 /// area nor the cloth's own motion in it. Zero for a triangle without area.
-btVector3 paperWindForce(const btVector3& a, const btVector3& b, const btVector3& c, const btVector3& wind);
+WETCLOTH_EXPORT btVector3 paperWindForce(const btVector3& a, const btVector3& b, const btVector3& c,
+                                         const btVector3& wind);
 
 /// Air's force on a triangle [N]: pressure x area along the normal, by the speed relative to the moving cloth,
 /// F = 1/2 rho C_d A |u_n| u_n n_hat + 1/2 rho C_f A |u_t| u_t,  u = wind - velocity split into normal and tangent.
 /// Zero for a triangle without area.
 /// @param velocity  the triangle's own [m/s]
 /// @param airDensity rho [kg/m^3]; @param dragCoefficient C_d [-]; @param skinFriction C_f [-]
-btVector3 quadraticWindForce(const btVector3& a, const btVector3& b, const btVector3& c, const btVector3& velocity,
-                             const btVector3& wind, double airDensity, double dragCoefficient, double skinFriction);
+WETCLOTH_EXPORT btVector3 quadraticWindForce(const btVector3& a, const btVector3& b, const btVector3& c,
+                                             const btVector3& velocity, const btVector3& wind, double airDensity,
+                                             double dragCoefficient, double skinFriction);
 
 /// The same with a force linear in the relative speed [N]: F = k A u_n n_hat, k = linearDrag [N s/m^3].
-btVector3 linearWindForce(const btVector3& a, const btVector3& b, const btVector3& c, const btVector3& velocity,
-                          const btVector3& wind, double linearDrag);
+WETCLOTH_EXPORT btVector3 linearWindForce(const btVector3& a, const btVector3& b, const btVector3& c,
+                                          const btVector3& velocity, const btVector3& wind, double linearDrag);
 
 /// Wind and air resistance on the cloth's triangles. Air at rest is wind too: Wind({btVector3(0, 0, 0)}) is drag.
 ///
 /// Stands on its own beside Bullet's aerodynamics: a body whose m_cfg.kDG or kLF is set feels both; set them to 0
 /// (Bullet's default) to feel only this.
-class Wind : public Effect {
+class WETCLOTH_EXPORT Wind : public Effect {
  public:
   enum class Law {
     quadratic,  ///< 1/2 rho C_d A |u_n| u_n, a third to each corner

@@ -12,7 +12,7 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 /// Velocity of the air [m/s]: the same everywhere, or a function of position [m] and time [s].
-class WindField {
+class WETCLOTH_EXPORT WindField {
  public:
   using Function = std::function<btVector3(const btVector3& position, double time)>;
 

@@ -18,7 +18,7 @@ inline namespace WETCLOTH_PRECISION {
 ///
 /// Node (i, j), 0 <= i < columns, 0 <= j < rows, has index j * columns + i and lies at
 /// origin + edgeU i / (columns - 1) + edgeV j / (rows - 1).
-struct ClothPatch {
+struct WETCLOTH_EXPORT ClothPatch {
   enum class Edge { left, right, bottom, top };  ///< i = 0, i = columns - 1, j = 0, j = rows - 1
   enum class Corner { bottomLeft, bottomRight, topLeft, topRight };
   enum class Spring { mechanical, shear, flexion };

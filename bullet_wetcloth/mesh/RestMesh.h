@@ -18,7 +18,7 @@ class StateArchive;
 /// present length where no link follows an edge. So it is the same however the body is bent when it is made.
 ///
 /// Nodes are numbered as in btSoftBody::m_nodes, triangles as in m_faces.
-class RestMesh {
+class WETCLOTH_EXPORT RestMesh {
  public:
   /// An edge of triangles, once; a < b.
   struct Edge {

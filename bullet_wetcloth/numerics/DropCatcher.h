@@ -18,12 +18,13 @@ inline namespace WETCLOTH_PRECISION {
 /// Zero for a triangle without area, a direction of length 0, and values that are not finite.
 /// @param direction  of the stream, of any length
 /// @param flux       [kg/m^2/s] through an area across the stream
-double caughtFlux(const btVector3& a, const btVector3& b, const btVector3& c, const btVector3& direction, double flux);
+WETCLOTH_EXPORT double caughtFlux(const btVector3& a, const btVector3& b, const btVector3& c,
+                                  const btVector3& direction, double flux);
 
 /// What flying drops do when they meet a cloth, for every effect that makes them fly: a triangle gives what it caught
 /// to its corners, a third each; a node takes what it has room for with the drops' velocity, and the rest strikes it
 /// and runs off.
-class DropCatcher {
+class WETCLOTH_EXPORT DropCatcher {
  public:
   using Triangle = std::array<int, 3>;
 

@@ -17,7 +17,7 @@ class WetCloth;
 ///
 /// While water moves the values lag behind by at most `kStep`, so that a slow change costs little; once a step has
 /// passed in which no water moved they are exact. So they depend on the water alone, not on how it came there.
-class LinkSaturation {
+class WETCLOTH_EXPORT LinkSaturation {
  public:
   static constexpr double kStep = 1e-3;
 

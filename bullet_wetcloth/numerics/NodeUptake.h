@@ -15,7 +15,7 @@ inline namespace WETCLOTH_PRECISION {
 
 /// Puts water into nodes up to their capacity, and loses none of it to rounding. A member of each effect that is a
 /// source.
-class NodeUptake {
+class WETCLOTH_EXPORT NodeUptake {
  public:
   /// Nothing carried, for this many nodes.
   void reset(std::size_t nodes) { m_carry.reset(nodes); }

@@ -18,7 +18,7 @@ inline namespace WETCLOTH_PRECISION {
 ///
 /// The centroids are sorted into a uniform grid across the stream, and each triangle looks at those in the cells that
 /// it covers: O(triangles) for a mesh of even triangles in a few layers. Memory is taken by resize() only.
-class Shelter {
+class WETCLOTH_EXPORT Shelter {
  public:
   using Triangle = std::array<int, 3>;
 

@@ -18,7 +18,7 @@ inline namespace WETCLOTH_PRECISION {
 /// longer) for 64 steps on end: by the second, since a short step moves little though much is left to move. It goes on
 /// when more than 1e-7 of the capacity has been moved since, by anyone or by hand; when the capacity has changed; when
 /// the cloth's shape or gravity has changed, if it depends on them; and after restart().
-class SteadyState {
+class WETCLOTH_EXPORT SteadyState {
  public:
   enum class DependsOn { water, waterAndShape };
   explicit SteadyState(DependsOn inputs = DependsOn::water) : m_inputs(inputs) {}

@@ -13,15 +13,15 @@ class WetCloth;
 
 /// Colour by which a saturation is told apart on a screen (sRGB, no fabric's own): sand when dry, through green, to a
 /// dark blue from saturation 1 on. Brightness falls all the way. The saturation is clamped to [0, 1].
-Colour saturationColour(double saturation);
+WETCLOTH_EXPORT Colour saturationColour(double saturation);
 
 /// Draws a cloth's triangles, each in the saturationColour() of its corners' mean saturation.
-void drawSaturation(const WetCloth& cloth, btIDebugDraw& drawer);
+WETCLOTH_EXPORT void drawSaturation(const WetCloth& cloth, btIDebugDraw& drawer);
 
 /// Draws the traction of each Wind of a cloth, Wind::traction(), as a line from the centre of each triangle, in red;
 /// nothing where there is none.
 /// @param time  at which to ask the wind [s]; @param metresPerPascal  length of a line over the traction [m/Pa]
-void drawWind(const WetCloth& cloth, btIDebugDraw& drawer, double time, double metresPerPascal);
+WETCLOTH_EXPORT void drawWind(const WetCloth& cloth, btIDebugDraw& drawer, double time, double metresPerPascal);
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

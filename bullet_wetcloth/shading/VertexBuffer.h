@@ -34,7 +34,7 @@ struct VertexBuffer {
 ///
 /// Throws std::invalid_argument, and then writes nothing: base is null; vertexCount is not the number of nodes; an
 /// offset is negative; a stride is neither 0 nor at least what the value takes.
-void fillVertexBuffer(const WetCloth& cloth, const VertexBuffer& buffer);
+WETCLOTH_EXPORT void fillVertexBuffer(const WetCloth& cloth, const VertexBuffer& buffer);
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

@@ -32,7 +32,7 @@ inline namespace WETCLOTH_PRECISION {
 ///     archive.array(m_carry);                        // as long as it is here: another length is refused
 ///     if (archive.isRestoring()) rebuildFromCarry();
 ///   }
-class StateArchive {
+class WETCLOTH_EXPORT StateArchive {
  public:
   /// Saves the state of objects of this world.
   explicit StateArchive(const btCollisionWorld& world);

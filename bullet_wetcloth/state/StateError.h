@@ -10,7 +10,7 @@ inline namespace WETCLOTH_PRECISION {
 
 /// A saved state that is damaged, foreign or of another world, or a world whose state cannot be saved; what() names
 /// what is wrong.
-class StateError : public std::runtime_error {
+class WETCLOTH_EXPORT StateError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };

@@ -19,7 +19,7 @@ class StateArchive;
 /// btSoftBody::setMass() makes the next step reset every rest length to the deformed length, so it must never be
 /// used on a running body. This writes m_im and then what Bullet derived from it: cluster masses and inertia, pose
 /// weights, the deformable world's anchors and mass preconditioner. The links' constants are LinkConstants' to write.
-class NodeMasses {
+class WETCLOTH_EXPORT NodeMasses {
  public:
   NodeMasses(btSoftBody& body, bool deformable) : m_body(body), m_deformable(deformable) {}
 

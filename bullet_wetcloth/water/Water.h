@@ -27,7 +27,7 @@ struct Ledger {
 };
 
 /// A sum whose rounding error does not grow with the number of terms (Neumaier 1974).
-class CompensatedSum {
+class WETCLOTH_EXPORT CompensatedSum {
  public:
   void add(double term) {
     const double sum = m_sum + term;
@@ -44,7 +44,7 @@ class CompensatedSum {
 };
 
 /// The same of all of these.
-double compensatedSum(const std::vector<double>& values);
+WETCLOTH_EXPORT double compensatedSum(const std::vector<double>& values);
 
 /// An exponential never arrives: when less than this share of a node's capacity is missing, or left to go, it goes all
 /// at once, so that a cloth which is full or dry can idle. A tenth of the closeness to the closed forms that we
@@ -56,7 +56,7 @@ constexpr double kNegligible = 1e-13;
 /// Effects change it through absorb(), runOff(), drip(), handOver(), evaporate(), move() and redistribute(); what
 /// arrived since the last commit and with which momentum is remembered, so that the commit can update velocities and
 /// masses once per step.
-class Water {
+class WETCLOTH_EXPORT Water {
  public:
   /// What came to a node since the last commit.
   struct Arrival {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Zlib
 # WETCLOTH_FILES_PER_OBJECT: how many files the compiler is given at once. Their headers cost more than they do, so many
-# are best to build all of it, and 1 to work on one file. Tests are joined by JoinTestSources.
+# are best to build all of it, and 1 to work on one file. Tests are joined by WetclothJoinTestSources.
 set(WETCLOTH_FILES_PER_OBJECT 1 CACHE STRING "Source files that are compiled together: 1 to work on one, more for all")
 
 # wetcloth_compile_together(<library>)

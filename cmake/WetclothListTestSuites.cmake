@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Zlib
-# Run by CTest, with `program`, `prefix` and `directory` set: see DiscoverTestSuites.cmake.
+# Run by CTest, with `program`, `prefix` and `directory` set: see WetclothDiscoverTestSuites.cmake.
 if(NOT EXISTS "${program}")
   add_test("${prefix}NOT_BUILT" "${program}")
   return()
