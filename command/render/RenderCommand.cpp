@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/render/RenderCommand.h"
 
+#include "command/cli/CommonOptions.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/cli/NearestWord.h"
@@ -10,6 +11,7 @@
 #include "command/render/RecordRun.h"
 #include "command/render/RenderJob.h"
 #include "command/scene/DryScene.h"
+#include "command/scene/SceneOptions.h"
 
 #include "command/pictures/HtmlPage.h"
 #include "command/pictures/Unavailable.h"
@@ -18,18 +20,36 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace command {
 namespace {
 
 using pictures::Colouring;
 
-const std::vector<std::pair<std::string, Colouring>>& colourings() {
-  static const std::vector<std::pair<std::string, Colouring>> all{{"fabric", Colouring::fabric},
-                                                                  {"saturation", Colouring::saturation},
-                                                                  {"stretch", Colouring::stretch},
-                                                                  {"speed", Colouring::speed}};
+struct RenderOptions : SceneOptions {
+  std::string out;   ///< file; its suffix chooses what is made
+  std::string size;  ///< WIDTHxHEIGHT [pixels]; empty: as fits what is made
+  std::optional<double> framesPerSecond;
+  double speed = 1;                   ///< simulated seconds per second of film
+  std::vector<double> times;          ///< of a picture [s]; none: the end
+  std::vector<double> view;           ///< direction that the camera looks along; none: as the scene says
+  double orbit = 0;                   ///< turn of the camera about the upright [degrees]
+  std::optional<double> fieldOfView;  ///< vertical [degrees]
+  std::string colouring = "fabric";
+  bool compare = false;  ///< plain Bullet, dry and wet side by side
+  std::string json;
+};
+
+const NamedValues<Colouring>& colourings() {
+  static const NamedValues<Colouring> all{{"fabric", Colouring::fabric},
+                                          {"saturation", Colouring::saturation},
+                                          {"stretch", Colouring::stretch},
+                                          {"speed", Colouring::speed}};
   return all;
 }
 
@@ -58,6 +78,12 @@ const std::vector<Product>& products() {
                                         {".gif", true, 25, "640x360", false, requireFilm, drawFilm},
                                         {".html", true, 30, "1280x720", false, requireNothing, writePage}};
   return all;
+}
+
+std::vector<std::string> renderSuffixes() {
+  std::vector<std::string> suffixes;
+  for (const Product& product : products()) suffixes.push_back(product.suffix);
+  return suffixes;
 }
 
 std::string nameOfOut(const RenderOptions& options) { return "wetcloth: --out = \"" + onOneLine(options.out) + "\""; }
@@ -180,25 +206,11 @@ void printSummary(const RenderOptions& options, const RenderJob& job, const Rend
   std::printf("drawn at %.1f pictures a second by %s\n", speedOfDrawing(job, result), result.renderer.c_str());
 }
 
-}  // namespace
-
-std::vector<std::string> colouringNames() {
-  std::vector<std::string> names;
-  for (const auto& [name, colouring] : colourings()) names.push_back(name);
-  return names;
-}
-
-std::vector<std::string> renderSuffixes() {
-  std::vector<std::string> suffixes;
-  for (const Product& product : products()) suffixes.push_back(product.suffix);
-  return suffixes;
-}
-
-void renderScene(const RenderOptions& options, char** arguments) {
+void renderScene(const RenderOptions& options) {
   const Product& product = productOf(options);
   requireOptions(options, product);
   const PictureSize size = readSize(options.size.empty() ? product.size : options.size, product.hasEvenSize);
-  Scene scene = readScene(options, arguments);
+  Scene scene = prepareScene(options).scene;
   requireTimes(options, scene);
   aimCamera(options, scene);
   JsonOutput json(options.json);
@@ -211,6 +223,43 @@ void renderScene(const RenderOptions& options, char** arguments) {
   output.commit();
   json.write(jsonOf(options, scene, job, result));
   if (!json.ownsStandardOutput()) printSummary(options, job, result);
+}
+
+void addCameraOptions(CLI::App& app, RenderOptions& options) {
+  app.add_option("--view", options.view, "X,Y,Z: what the camera looks along, instead of the scene's own direction")
+      ->delimiter(',')
+      ->expected(3);
+  app.add_option("--orbit", options.orbit, "Turns the camera about the upright [degrees]")->capture_default_str();
+  app.add_option("--field-of-view", options.fieldOfView, "Of the camera, vertical [degrees]");
+}
+
+}  // namespace
+
+Command addRenderCommand(CLI::App& line) {
+  CLI::App* const app =
+      line.add_subcommand("render", "Run a scene and draw pictures, a film or a page for a browser, without a display");
+  const auto options = std::make_shared<RenderOptions>();
+  addSceneFile(*app, *options);
+  app->add_option("--out", options->out, "File, which is replaced; its suffix chooses: " + joined(renderSuffixes()))
+      ->required();
+  app->add_option("--size", options->size,
+                  "WIDTHxHEIGHT of the film or of each picture [pixels]; default 1280x720, for a .gif 640x360");
+  app->add_option("--times", options->times, "Of a .png: when [s]; several give a strip; default is the end")
+      ->delimiter(',');
+  app->add_option("--fps", options->framesPerSecond,
+                  "Of a film or page: pictures per second; default 30, for a .gif 25");
+  app->add_option("--speed", options->speed, "Of a film: simulated seconds per second of film; 0.25 is slow motion")
+      ->capture_default_str();
+  addCameraOptions(*app, *options);
+  app->add_option("--colouring", options->colouring, "What the colours of a cloth show; all but fabric with a bar")
+      ->check(oneOf("--colouring", namesOf(colourings())))
+      ->capture_default_str();
+  app->add_flag("--compare", options->compare, "Plain Bullet, the dry scene and the wet one side by side");
+  addDuration(*app, *options);
+  addQuality(*app, *options);
+  addScenePrecision(*app, *options);
+  addJson(*app, options->json, "what was drawn");
+  return {app, [options] { renderScene(*options); }, [options] { return wishOf(*options); }};
 }
 
 }  // namespace command

@@ -2,7 +2,7 @@
 #include "command/stability/Cases.h"
 
 #include <bullet_wetcloth/collision/ContinuousCheck.h>
-#include <bullet_wetcloth/collision/TextbookCheck.h>
+#include "command/ccd/TextbookCheck.h"
 
 #include <cmath>
 #include <functional>
@@ -181,7 +181,7 @@ void check(const ContinuousCheck& answer, const Known& known, CaseMeter& meter) 
 }
 
 void checkTextbook(const Known& known, CaseMeter& meter) {
-  const Contact contact = wetcloth::collision::textbookCheck(known.pair, rounded<btScalar>(known.query), btScalar(0));
+  const Contact contact = command::comparison::textbookCheck(known.pair, rounded<btScalar>(known.query), btScalar(0));
   if (known.meets) meter.compare("missed contacts", contact.found ? 0 : 1, 0);
   if (!known.meets) meter.compare("false alarms", contact.found ? 1 : 0, 0);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Zlib
+#include "command/ccd/TextbookCheck.h"
 #include "tests/support/QueryData.h"
-
-#include <bullet_wetcloth/collision/TextbookCheck.h>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +11,7 @@
 namespace {
 
 using namespace wetcloth::collision;
+using command::comparison::textbookCheck;
 
 template <class Scalar>
 class TextbookCheck : public testing::Test {};

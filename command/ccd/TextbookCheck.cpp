@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Zlib
-#include "bullet_wetcloth/collision/TextbookCheck.h"
+#include "command/ccd/TextbookCheck.h"
 
-#include "bullet_wetcloth/collision/ComparisonParts.h"
+#include "command/ccd/ComparisonParts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-namespace wetcloth::collision {
+namespace command::comparison {
 namespace {
-
-using comparison::meetInPlane;
-using comparison::Motion;
-using comparison::PowerCubic;
-using comparison::quadraticRoots;
 
 /// Real roots of c + b x + a x^2 + x^3 in ascending order.
 template <class Scalar>
@@ -72,4 +67,4 @@ Contact textbookCheck(Pair pair, const Query<Scalar>& query, Scalar tolerance) n
 template Contact textbookCheck(Pair pair, const Query<float>& query, float tolerance) noexcept;
 template Contact textbookCheck(Pair pair, const Query<double>& query, double tolerance) noexcept;
 
-}  // namespace wetcloth::collision
+}  // namespace command::comparison

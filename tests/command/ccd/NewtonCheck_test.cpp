@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Zlib
+#include "command/ccd/NewtonCheck.h"
 #include "tests/support/QueryData.h"
-
-#include <bullet_wetcloth/collision/NewtonCheck.h>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +11,7 @@
 namespace {
 
 using namespace wetcloth::collision;
+using command::comparison::newtonCheck;
 
 template <class Scalar>
 class NewtonCheck : public testing::Test {};

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "bullet_wetcloth/Export.h"
 #include "bullet_wetcloth/collision/Query.h"
 
-namespace wetcloth::collision {
+namespace command::comparison {
 
 /// Tolerant Newton's method, for comparison only: it MISSES contacts.
 ///
@@ -12,6 +11,7 @@ namespace wetcloth::collision {
 /// or are within the tolerance of zero, is searched by Newton's method safeguarded with bisection; then an inside test
 /// with `tolerance` (>= 0, in barycentric weights and in time). In double precision.
 template <class Scalar>
-WETCLOTH_COLLISION_EXPORT Contact newtonCheck(Pair pair, const Query<Scalar>& query, double tolerance) noexcept;
+wetcloth::collision::Contact newtonCheck(wetcloth::collision::Pair pair,
+                                         const wetcloth::collision::Query<Scalar>& query, double tolerance) noexcept;
 
-}  // namespace wetcloth::collision
+}  // namespace command::comparison

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "bullet_wetcloth/Export.h"
 #include "bullet_wetcloth/collision/Query.h"
 
-namespace wetcloth::collision {
+namespace command::comparison {
 
 /// The closed form of the textbooks, for comparison only: it MISSES contacts.
 ///
@@ -13,6 +12,7 @@ namespace wetcloth::collision {
 /// `tolerance` (>= 0) is how far outside [0, 1], the face or the edges (in barycentric weights) still counts; 0 is the
 /// strict inside test. Scalar (float or double) is the precision that all of it is done in.
 template <class Scalar>
-WETCLOTH_COLLISION_EXPORT Contact textbookCheck(Pair pair, const Query<Scalar>& query, Scalar tolerance) noexcept;
+wetcloth::collision::Contact textbookCheck(wetcloth::collision::Pair pair,
+                                           const wetcloth::collision::Query<Scalar>& query, Scalar tolerance) noexcept;
 
-}  // namespace wetcloth::collision
+}  // namespace command::comparison

@@ -10,7 +10,11 @@
 #include <cmath>
 #include <utility>
 
-namespace wetcloth::collision::comparison {
+namespace command::comparison {
+
+using wetcloth::collision::Contact;
+using wetcloth::collision::Pair;
+using wetcloth::collision::Query;
 
 template <class Scalar>
 struct Vector {
@@ -110,4 +114,4 @@ bool meetInPlane(Pair pair, const Motion<Scalar>& motion, Scalar time, Scalar to
   return true;
 }
 
-}  // namespace wetcloth::collision::comparison
+}  // namespace command::comparison

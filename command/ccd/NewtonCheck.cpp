@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Zlib
-#include "bullet_wetcloth/collision/NewtonCheck.h"
+#include "command/ccd/NewtonCheck.h"
 
-#include "bullet_wetcloth/collision/ComparisonParts.h"
+#include "command/ccd/ComparisonParts.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace wetcloth::collision {
+namespace command::comparison {
 namespace {
-
-using comparison::meetInPlane;
-using comparison::Motion;
-using comparison::PowerCubic;
-using comparison::quadraticRoots;
-using comparison::Vector;
 
 template <class Scalar>
 Query<double> inDouble(const Query<Scalar>& query) {
@@ -92,4 +86,4 @@ Contact newtonCheck(Pair pair, const Query<Scalar>& query, double tolerance) noe
 template Contact newtonCheck(Pair pair, const Query<float>& query, double tolerance) noexcept;
 template Contact newtonCheck(Pair pair, const Query<double>& query, double tolerance) noexcept;
 
-}  // namespace wetcloth::collision
+}  // namespace command::comparison
