@@ -51,7 +51,7 @@ struct Collection {
 
 Collection collect(const std::string& name, Pair pair) {
   Collection collection = {name, pair, {}, {}, {}, {}};
-  for (const test::KnownQuery& known : test::knownQueries(name)) {
+  for (const wetcloth_test::KnownQuery& known : wetcloth_test::knownQueries(name)) {
     if (known.pair != pair) continue;
     collection.queries.push_back(known.points);
     collection.meets.push_back(known.meets);

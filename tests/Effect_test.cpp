@@ -5,9 +5,7 @@
 
 #include <stdexcept>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::effect_test {
 
 namespace {
 
@@ -254,4 +252,4 @@ TEST_P(OwnEffect, ThatIsNotOursCannotBeRemoved) {
 WETCLOTH_IN_EVERY_WORLD(OwnEffect);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::effect_test

@@ -3,9 +3,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::only_the_work_asked_for_test {
 
 namespace {
 
@@ -122,4 +120,4 @@ TEST_P(OnlyTheWorkAskedFor, IsDoneAtOnceWhenWaterIsSetByHand) {
 WETCLOTH_IN_EVERY_WORLD(OnlyTheWorkAskedFor);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::only_the_work_asked_for_test

@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::link_constants_are_cached_test {
 
 namespace {
 
@@ -83,4 +81,4 @@ TEST_P(LinkConstants, AreLeftAloneWhenNoMassChanged) {
 WETCLOTH_IN_EVERY_WORLD(LinkConstants);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::link_constants_are_cached_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace wetcloth_test {
+namespace wetcloth_test::diffusion_upkeep_test {
 
 using namespace transport;
 
@@ -191,4 +191,4 @@ TEST(DiffusionWarp, IsOfAnyLength) {
 WETCLOTH_IN_EVERY_WORLD(DiffusionInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::diffusion_upkeep_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace wetcloth_test {
+namespace wetcloth_test::seepage_upkeep_test {
 
 using namespace transport;
 
@@ -99,4 +99,4 @@ TEST(SeepageUpkeep, MakesAsManySubstepsAsItsFastestWaveAsksFor) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::seepage_upkeep_test

@@ -8,9 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::soak_soften_shrink_test {
 
 namespace {
 
@@ -164,4 +162,4 @@ TEST_P(SoakSoftenShrink, PatchThereAndBack) {
 WETCLOTH_IN_EVERY_WORLD(SoakSoftenShrink);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::soak_soften_shrink_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::wet_stiffness_links_test {
 namespace {
 
 using wetcloth::WetStiffness;
@@ -263,4 +263,4 @@ INSTANTIATE_TEST_SUITE_P(, WetStiffnessLinks, testing::Values(WorldKind::softRig
                          [](const auto& world) { return std::string(nameOf(world.param)); });
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::wet_stiffness_links_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::wet_stiffness_springs_test {
 namespace {
 
 using wetcloth::HookeSprings;
@@ -199,4 +199,4 @@ INSTANTIATE_TEST_SUITE_P(, WetStiffnessOrder, testing::Values(WorldKind::softRig
                          [](const auto& world) { return std::string(nameOf(world.param)); });
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::wet_stiffness_springs_test

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace wetcloth_test {
+namespace wetcloth_test::refusal_test {
 namespace {
 
 using state_scene::Case;
@@ -133,4 +133,4 @@ TEST_F(StateRefusal, OfAStreamThatCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::refusal_test

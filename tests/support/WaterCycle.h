@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
 
 /// Every effect of the water cycle at once, with parameters that a test makes up.
-namespace WaterCycle {
+namespace water_cycle {
 
 struct Choice {
   std::vector<std::string> names;                         ///< of the effects, as scenes spell them
@@ -160,5 +160,5 @@ inline std::string faultOf(const wetcloth::WetCloth& cloth) {
   return "";
 }
 
-}  // namespace WaterCycle
-}  // namespace wetcloth_test::core
+}  // namespace water_cycle
+}  // namespace wetcloth_test

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::references_test {
 namespace {
 
 using accuracy::BarenblattSpread;
@@ -129,4 +129,4 @@ TEST(BarenblattSpread, KeepsItsWaterAndSolvesItsEquation) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::references_test

@@ -8,6 +8,7 @@
 #include <limits>
 #include <tuple>
 
+namespace wetcloth_test::newton_check_test {
 namespace {
 
 using namespace wetcloth::collision;
@@ -17,8 +18,6 @@ template <class Scalar>
 class NewtonCheck : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(NewtonCheck, Scalars);
-
-}  // namespace
 
 TYPED_TEST(NewtonCheck, FirstOfThreeCoplanarMoments) {
   // The volume is (1 - 4t)(1 - 2t)(3 - 4t); at the first root the vertex is in the middle of the face.
@@ -75,11 +74,14 @@ TYPED_TEST(NewtonCheck, ValuesThatAreNotFiniteDoNoHarm) {
 
 TEST(NewtonCheckOnData, MissesFewAndOnlyOfTheHardCollection) {
   for (const auto& [collection, fewest, most] : {std::tuple{"real", 1, 10}, std::tuple{"cloth", 0, 0}}) {
-    const auto queries = test::knownQueries(collection);
-    const auto misses = std::count_if(queries.begin(), queries.end(), [](const test::KnownQuery& query) {
+    const auto queries = knownQueries(collection);
+    const auto misses = std::count_if(queries.begin(), queries.end(), [](const KnownQuery& query) {
       return query.meets && !newtonCheck(query.pair, query.points, 1e-6).found;
     });
     EXPECT_GE(misses, fewest);
     EXPECT_LE(misses, most);
   }
 }
+
+}  // namespace
+}  // namespace wetcloth_test::newton_check_test

@@ -8,6 +8,7 @@
 #include <limits>
 #include <tuple>
 
+namespace wetcloth_test::textbook_check_test {
 namespace {
 
 using namespace wetcloth::collision;
@@ -17,8 +18,6 @@ template <class Scalar>
 class TextbookCheck : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(TextbookCheck, Scalars);
-
-}  // namespace
 
 TYPED_TEST(TextbookCheck, VertexThroughFace) {
   const Query<TypeParam> query{{{0.25, 0.5, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
@@ -80,11 +79,14 @@ TYPED_TEST(TextbookCheck, ValuesThatAreNotFiniteDoNoHarm) {
 
 TEST(TextbookCheckOnData, MissesFewAndOnlyOfTheHardCollection) {
   for (const auto& [collection, fewest, most] : {std::tuple{"real", 1, 15}, std::tuple{"cloth", 0, 0}}) {
-    const auto queries = test::knownQueries(collection);
-    const auto misses = std::count_if(queries.begin(), queries.end(), [](const test::KnownQuery& query) {
+    const auto queries = knownQueries(collection);
+    const auto misses = std::count_if(queries.begin(), queries.end(), [](const KnownQuery& query) {
       return query.meets && !textbookCheck(query.pair, query.points, 1e-6).found;
     });
     EXPECT_GE(misses, fewest);
     EXPECT_LE(misses, most);
   }
 }
+
+}  // namespace
+}  // namespace wetcloth_test::textbook_check_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/ClothScene.h"
 
-namespace wetcloth_test {
+namespace wetcloth_test::falling_drops_test {
 namespace {
 
 using command::FallingDrops;
@@ -116,4 +116,4 @@ TEST(FallingDrops, WhatHasLandedIsForgotten) {
 
 }  // namespace
 
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::falling_drops_test

@@ -16,7 +16,7 @@
 #include <limits>
 #include <set>
 
-namespace wetcloth_test {
+namespace wetcloth_test::stability_table_test {
 namespace {
 
 constexpr double kStabilityStep = 1. / 60;
@@ -236,4 +236,4 @@ TEST(StabilityMeasure, SeesStretch) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::stability_table_test
