@@ -54,7 +54,7 @@ class BenchCloth {
       m_wetWorld->add(*m_body);
       m_world.setInternalTickCallback(onPreTick, this, true);
     }
-    return *m_wetWorld->cloths().front();
+    return m_wetWorld->cloths().front();
   }
   /// Time spent in our part of the last step [s].
   double ourSeconds() const { return m_ourSeconds; }

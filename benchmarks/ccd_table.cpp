@@ -3,9 +3,9 @@
 // Prints a table in Markdown, and the same as CSV into the file that is named.
 
 #include <bullet_wetcloth/collision/ContinuousCheck.h>
-#include <bullet_wetcloth/collision/NewtonCheck.h>
-#include <bullet_wetcloth/collision/TextbookCheck.h>
 #include <command/ccd/BulletCheck.h>
+#include <command/ccd/NewtonCheck.h>
+#include <command/ccd/TextbookCheck.h>
 #include <tests/support/QueryData.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ struct Collection {
 
 Collection collect(const std::string& name, Pair pair) {
   Collection collection = {name, pair, {}, {}, {}, {}};
-  for (const test::KnownQuery& known : test::knownQueries(name)) {
+  for (const wetcloth_test::KnownQuery& known : wetcloth_test::knownQueries(name)) {
     if (known.pair != pair) continue;
     collection.queries.push_back(known.points);
     collection.meets.push_back(known.meets);
@@ -108,13 +108,13 @@ std::vector<NamedMethod> methods() {
   for (const double tolerance : {0.0, 1e-6})
     list.push_back(
         {tolerance > 0 ? "textbook, 1e-6" : "textbook, strict", ofEach([tolerance](const Collection& c, std::size_t i) {
-           return textbookCheck(c.pair, c.queries[i], tolerance).found;
+           return command::comparison::textbookCheck(c.pair, c.queries[i], tolerance).found;
          })});
   list.push_back({"textbook, float, 1e-6", ofEach([](const Collection& c, std::size_t i) {
-                    return textbookCheck(c.pair, c.rounded[i], 1e-6F).found;
+                    return command::comparison::textbookCheck(c.pair, c.rounded[i], 1e-6F).found;
                   })});
   list.push_back({"Newton, 1e-6", ofEach([](const Collection& c, std::size_t i) {
-                    return newtonCheck(c.pair, c.queries[i], 1e-6).found;
+                    return command::comparison::newtonCheck(c.pair, c.queries[i], 1e-6).found;
                   })});
   return list;
 }

@@ -13,7 +13,11 @@ class WetCloth;
 
 /// The fixed order of a step, whatever order effects were added in. Between `material` and `forces` the step
 /// commits: masses, momentum and link constants are written once, and only if water moved.
+///
+/// `observe` to `elasticity` run in the pre-tick, before Bullet predicts. While Bullet lets the body sleep, `observe`
+/// to `material` run all the same, since water moves in a cloth at rest and its nodes may be moved by hand.
 enum class Stage {
+  observe,     ///< looks at how the last substep ended, before any effect of any cloth changes anything
   sources,     ///< water arrives: absorption, rain, immersion, contact
   transport,   ///< water spreads inside the cloth
   losses,      ///< water leaves: dripping, drying
@@ -40,7 +44,8 @@ struct Step {
 ///   factor a matrix anew when the step's length, the masses or the stiffness have changed;
 /// - it changes water only through WetCloth::water(), and velocities only through WetCloth::push(); water that leaves a
 ///   node takes the velocity that the node has after WetCloth::joinArrivals(); at the stage `contact` it changes
-///   neither: the position-based worlds would lose the velocities, and the commit has been.
+///   neither: the position-based worlds would lose the velocities, and the commit has been; at the stage `observe` it
+///   changes nothing at all.
 class WETCLOTH_EXPORT Effect {
  public:
   virtual ~Effect() = default;

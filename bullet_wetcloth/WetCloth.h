@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "bullet_wetcloth/BodyWatch.h"
 #include "bullet_wetcloth/Effect.h"
+#include "bullet_wetcloth/EffectList.h"
+#include "bullet_wetcloth/EffectType.h"
 #include "bullet_wetcloth/Fabric.h"
+#include "bullet_wetcloth/Range.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
 #include "bullet_wetcloth/shading/Colour.h"
+#include "bullet_wetcloth/water/LinkConstants.h"
 #include "bullet_wetcloth/water/NodeMasses.h"
 #include "bullet_wetcloth/water/Water.h"
 
@@ -41,17 +46,51 @@ class WETCLOTH_EXPORT WetCloth {
   /// the cloth is then as it was.
   template <class E>
   E& add(typename E::Parameters parameters = {}) {
-    auto effect = std::make_unique<E>(std::move(parameters));
-    E& reference = *effect;
-    add(std::unique_ptr<Effect>(std::move(effect)));
-    return reference;
+    return add(std::make_unique<E>(std::move(parameters)));
   }
-  /// Adds an effect of your own. Throws std::invalid_argument on null, and what its attach() throws.
-  Effect& add(std::unique_ptr<Effect> effect);
-  /// Removes an effect of this cloth. Throws std::invalid_argument when it is not one of them.
+  /// Adds an effect of your own. Throws std::invalid_argument on null, and what its attach() throws; the cloth is then
+  /// as it was.
+  template <class E, class Deleter>
+  E& add(std::unique_ptr<E, Deleter> effect) {
+    E* const added = effect.get();
+    add(std::move(effect), &EffectType<E>::tag);
+    return *added;
+  }
+  /// The same for one whose class is not known here: find() and forEach() pass it over.
+  Effect& add(std::unique_ptr<Effect> effect) { return add(std::move(effect), nullptr); }
+  /// Removes an effect of this cloth and deletes it. Throws std::invalid_argument when it is not one of them, and what
+  /// its detach() throws.
   void remove(Effect& effect);
-  /// In the order in which the step runs them.
-  const std::vector<std::unique_ptr<Effect>>& effects() const { return m_effects; }
+
+  /// In the order in which the step runs them: `for (Effect& effect : towel.effects())`. Ends with the next add() or
+  /// remove().
+  Range<Effect, EffectList::Entry> effects() { return Range<Effect, EffectList::Entry>(m_effects.entries()); }
+  Range<const Effect, EffectList::Entry> effects() const {
+    return Range<const Effect, EffectList::Entry>(m_effects.entries());
+  }
+  /// The first effect that was added as an E, or null: `if (Wind* wind = towel.find<Wind>())`. What was added as
+  /// something else is not found, be it derived from E. Needs no RTTI.
+  template <class E>
+  E* find() {
+    return static_cast<E*>(m_effects.find(&EffectType<E>::tag));
+  }
+  template <class E>
+  const E* find() const {
+    return static_cast<const E*>(m_effects.find(&EffectType<E>::tag));
+  }
+  /// Calls action(E&) for each effect that was added as an E, in the order of effects().
+  template <class E, class Action>
+  void forEach(Action action) {
+    for (const EffectList::Entry& entry : m_effects.entries()) {
+      if (entry.type == &EffectType<E>::tag) action(static_cast<E&>(*entry));
+    }
+  }
+  template <class E, class Action>
+  void forEach(Action action) const {
+    for (const EffectList::Entry& entry : m_effects.entries()) {
+      if (entry.type == &EffectType<E>::tag) action(static_cast<const E&>(*entry));
+    }
+  }
 
   // --- water ------------------------------------------------------------------------------------------------
 
@@ -71,9 +110,11 @@ class WETCLOTH_EXPORT WetCloth {
   Ledger ledger() const { return m_water.ledger(); }
 
   /// Sets every node to this saturation, [0, 1], and commits the masses. Velocities stay.
+  /// Throws std::invalid_argument naming the value when it is not in [0, 1].
   void setSaturation(double saturation);
   /// Sets the water of each node [kg], one finite value >= 0 per node, and commits the masses. Velocities stay.
-  /// Throws std::invalid_argument naming the node and the value.
+  /// Throws std::invalid_argument naming the node and the value, or the number of values when it is not that of the
+  /// nodes; then nothing changes.
   void setHeld(const std::vector<double>& held);
 
   // --- looks ------------------------------------------------------------------------------------------------
@@ -90,6 +131,9 @@ class WETCLOTH_EXPORT WetCloth {
   Water& water() { return m_water; }
   const Water& water() const { return m_water; }
   NodeMasses& masses() { return m_masses; }
+  const NodeMasses& masses() const { return m_masses; }
+  LinkConstants& linkConstants() { return m_linkConstants; }
+  const LinkConstants& linkConstants() const { return m_linkConstants; }
   /// The cloth's triangles at rest. Built when first asked for, and again after the body's nodes, links or faces
   /// changed in number: ask in attach(), which is called then.
   const RestMesh& restMesh();
@@ -119,23 +163,22 @@ class WETCLOTH_EXPORT WetCloth {
   friend class WetClothWorld;
   WetCloth(WetClothWorld& world, btSoftBody& body, Fabric fabric, bool deformable);
 
+  /// First of all, before any cloth's step(): observe. Never throws.
+  void observe(const Step& step);
   /// Before Bullet predicts: sources, transport, losses, material, commit, forces, elasticity. Never throws.
   void step(const Step& step);
-  /// Between Bullet's collision detection and its solve: contact. Never throws.
-  void stepContacts(const Step& step);
   /// After the steps of all cloths: what another one gave or took since this one's own commit.
   void commitExchange();
-  bool hasContactEffects() const { return !m_effects.empty() && m_effects.back()->stage() == Stage::contact; }
+  /// Between Bullet's collision detection and its solve: contact. Never throws.
+  void stepContacts(const Step& step);
+
+  Effect& add(std::unique_ptr<Effect> effect, const void* type);
+  void apply(Stage first, Stage last, const Step& step);
+  void commit();
   bool isAwake(const Step& step);
   void adaptToBody();
-  void releaseEffects();
-  void detachGuarded(Effect& effect);
-  template <class Action>
-  void guarded(std::size_t& index, Action action);
-  bool bodyChanged() const;
   void transferState(StateArchive& archive);
   void transferMesh(StateArchive& archive);
-  void rememberBody();
   std::size_t checked(int node) const;
 
   WetClothWorld& m_world;
@@ -144,13 +187,12 @@ class WETCLOTH_EXPORT WetCloth {
   bool m_deformable;
   Water m_water;
   NodeMasses m_masses;
+  LinkConstants m_linkConstants;
   std::optional<RestMesh> m_restMesh;
-  std::vector<std::unique_ptr<Effect>> m_effects;
+  EffectList m_effects;
+  BodyWatch m_watch;
   double m_massAsleep = 0;  // when Bullet let the body sleep, 0 while it is awake [kg]
   bool m_wasPresent = true;
-  int m_nodeCount = 0;
-  int m_linkCount = 0;
-  int m_faceCount = 0;
 };
 
 }  // namespace WETCLOTH_PRECISION

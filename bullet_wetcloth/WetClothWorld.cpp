@@ -55,7 +55,7 @@ WetClothWorld::WetClothWorld(btDynamicsWorld& world, Hook hook)
 WetClothWorld::~WetClothWorld() {
   SubstepHook::detach(*this);
   for (const auto& cloth : m_cloths) {
-    if (isInWorld(cloth->m_body)) cloth->releaseEffects();
+    if (isInWorld(cloth->m_body)) cloth->m_effects.clear();
   }
 }
 
@@ -79,16 +79,20 @@ void WetClothWorld::remove(btSoftBody& body) {
   const auto wraps = [&](const std::unique_ptr<WetCloth>& cloth) { return &cloth->body() == &body; };
   const auto position = std::find_if(m_cloths.begin(), m_cloths.end(), wraps);
   if (position == m_cloths.end()) reject("body", "was not added to this WetClothWorld");
-  (*position)->releaseEffects();
+  (*position)->m_effects.clear();
   m_cloths.erase(position);
   shareTick();
 }
 
-WetCloth* WetClothWorld::find(const btSoftBody& body) {
+const WetCloth* WetClothWorld::find(const btSoftBody& body) const {
   for (const auto& cloth : m_cloths) {
     if (&cloth->body() == &body) return cloth.get();
   }
   return nullptr;
+}
+
+WetCloth* WetClothWorld::find(const btSoftBody& body) {
+  return const_cast<WetCloth*>(static_cast<const WetClothWorld*>(this)->find(body));
 }
 
 bool WetClothWorld::isHooked() const {
@@ -102,6 +106,9 @@ bool WetClothWorld::isTickHooked() const {
 void WetClothWorld::preTick(btScalar dt) {
   if (!(std::isfinite(dt) && dt > 0)) return;
   m_stepStart = m_time;
+  for (const auto& cloth : m_cloths) {
+    if (noticePresence(*cloth)) cloth->observe(stepOf(cloth->m_body, dt, m_time));
+  }
   for (const auto& cloth : m_cloths) {
     if (noticePresence(*cloth)) cloth->step(stepOf(cloth->m_body, dt, m_time));
   }
@@ -121,7 +128,7 @@ void WetClothWorld::tick(btScalar dt) {
 // Bullet's tick callback is shared while a cloth needs it, and only then.
 void WetClothWorld::shareTick() {
   if (m_hook != Hook::preTick) return;
-  const auto needs = [](const std::unique_ptr<WetCloth>& cloth) { return cloth->hasContactEffects(); };
+  const auto needs = [](const std::unique_ptr<WetCloth>& cloth) { return cloth->m_effects.has(Stage::contact); };
   const bool isNeeded = std::any_of(m_cloths.begin(), m_cloths.end(), needs);
   if (isNeeded && !m_sharesTick) SubstepHook::take(*this, SubstepHook::Slot::tick);
   if (!isNeeded && m_sharesTick) SubstepHook::giveBack(*this, SubstepHook::Slot::tick);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Fabric.h"
+#include "bullet_wetcloth/Range.h"
 #include "bullet_wetcloth/WetCloth.h"
 
 #include <BulletDynamics/Dynamics/btDynamicsWorld.h>
@@ -51,7 +52,13 @@ class WETCLOTH_EXPORT WetClothWorld {
   void remove(btSoftBody& body);
   /// The cloth that wraps this body, or null.
   WetCloth* find(const btSoftBody& body);
-  const std::vector<std::unique_ptr<WetCloth>>& cloths() const { return m_cloths; }
+  const WetCloth* find(const btSoftBody& body) const;
+  /// In the order in which they were added: `for (WetCloth& cloth : wet.cloths())`. Ends with the next add() or
+  /// remove().
+  Range<WetCloth, std::unique_ptr<WetCloth>> cloths() { return Range<WetCloth, std::unique_ptr<WetCloth>>(m_cloths); }
+  Range<const WetCloth, std::unique_ptr<WetCloth>> cloths() const {
+    return Range<const WetCloth, std::unique_ptr<WetCloth>>(m_cloths);
+  }
 
   btDynamicsWorld& world() { return m_world; }
   const btDynamicsWorld& world() const { return m_world; }
@@ -94,12 +101,14 @@ class WETCLOTH_EXPORT WetClothWorld {
   /// precision or world), and then nothing has changed.
   void restore(std::istream& stream);
 
-  /// Simulated time since construction [s].
+  /// Simulated time [s]: the sum of the substeps that the cloths have had. It starts at 0 and goes on, after a
+  /// restore(), from the time that was saved.
   double time() const { return m_time; }
 
   /// Takes the library's messages (a body left the world, was cut, ...). The default writes to std::clog; an empty
   /// function silences them.
   void setLog(std::function<void(const std::string&)> log);
+  /// Says something through it.
   void log(const std::string& message) const;
 
  private:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Zlib
 # WETCLOTH_FILES_PER_OBJECT: how many files the compiler is given at once. Their headers cost more than they do, so many
-# are best to build all of it, and 1 to work on one file. Tests are joined by WetclothJoinTestSources.
+# are best to build all of it, and 1 to work on one file. So each file keeps its names in a namespace of its own.
 set(WETCLOTH_FILES_PER_OBJECT 1 CACHE STRING "Source files that are compiled together: 1 to work on one, more for all")
 
-# wetcloth_compile_together(<library>)
-function(wetcloth_compile_together library)
+# wetcloth_compile_together(<target>)
+function(wetcloth_compile_together target)
   if(WETCLOTH_FILES_PER_OBJECT GREATER 1)
-    set_target_properties(${library} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${WETCLOTH_FILES_PER_OBJECT})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${WETCLOTH_FILES_PER_OBJECT})
   endif()
 endfunction()

@@ -37,16 +37,14 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 #endif
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::allocation_test {
 
 namespace {
 
 // Water that comes and goes fast, so that in each step every effect has something to do.
 void addWaterCycle(CoreScene& scene, wetcloth::WetCloth& cloth) {
-  WaterCycle::giveWater(scene.bullet.info(), btScalar(0.4));
-  WaterCycle::letTouch(scene.bullet, scene.body());
+  water_cycle::giveWater(scene.bullet.info(), btScalar(0.4));
+  water_cycle::letTouch(scene.bullet, scene.body());
   cloth.add<wetcloth::Immersion>();
   cloth.add<wetcloth::Rain>({btVector3(1, -1, 1), 0.01, 5, true});
   cloth.add<wetcloth::Splash>(
@@ -125,4 +123,4 @@ TEST_P(NoAllocation, InFillingAVertexBuffer) {
 WETCLOTH_IN_EVERY_WORLD(NoAllocation);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::allocation_test

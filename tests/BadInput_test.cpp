@@ -6,9 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::bad_input_test {
 
 namespace {
 
@@ -215,4 +213,4 @@ TEST_P(BadInput, FabricFields) {
 WETCLOTH_IN_EVERY_WORLD(BadInput);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::bad_input_test

@@ -6,9 +6,7 @@
 
 #include <limits>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::bad_values_in_the_step_test {
 
 namespace {
 
@@ -137,4 +135,4 @@ TEST_P(BadValuesInTheStep, ThroughBulletTooAStepBackwardsAddsNoWater) {
 WETCLOTH_IN_EVERY_WORLD(BadValuesInTheStep);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::bad_values_in_the_step_test

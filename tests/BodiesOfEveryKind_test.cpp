@@ -7,9 +7,7 @@
 #include <BulletSoftBody/btDeformableNeoHookeanForce.h>
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::bodies_of_every_kind_test {
 
 namespace {
 
@@ -116,4 +114,4 @@ TEST_P(Tetrahedra, CanAbsorbAndFeelWind) {
 WETCLOTH_IN_EVERY_WORLD(Tetrahedra);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::bodies_of_every_kind_test

@@ -3,9 +3,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::body_comes_and_goes_test {
 
 namespace {
 
@@ -100,4 +98,4 @@ TEST_P(BodyComesAndGoes, ForgottenThenDeleted) {
 WETCLOTH_IN_EVERY_WORLD(BodyComesAndGoes);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::body_comes_and_goes_test

@@ -3,9 +3,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::cut_and_refine_test {
 
 namespace {
 
@@ -193,4 +191,4 @@ INSTANTIATE_TEST_SUITE_P(, SharedMass,
                          nameOfCase);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::cut_and_refine_test

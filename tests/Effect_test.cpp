@@ -5,9 +5,7 @@
 
 #include <stdexcept>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::effect_test {
 
 namespace {
 
@@ -35,7 +33,7 @@ TEST_P(EffectOrder, IsThatOfTheStagesWhateverTheOrderOfAdding) {
     for (const std::size_t i : order) addRecorder(cloth, inOrder[i].first, inOrder[i].second, names);
     scene.bullet.step(1);
     EXPECT_EQ(names, expected);
-    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(cloth.effects()[i]->stage(), inOrder[i].first);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(cloth.effects()[i].stage(), inOrder[i].first);
   }
 }
 
@@ -116,7 +114,7 @@ TEST_P(OwnEffect, WorksLikeOneOfOurs) {
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
   const Sponge& sponge = cloth.add<Sponge>({0.25});
-  EXPECT_EQ(cloth.effects()[0].get(), &sponge);
+  EXPECT_EQ(&cloth.effects()[0], &sponge);
   scene.bullet.step(240);
   EXPECT_NEAR(cloth.meanSaturation(), 0.25, 1e-5);  // 240 float steps make a second
   EXPECT_NEAR(1 / double(scene.body().m_nodes[5].m_im), cloth.dryMass(5) * 1.25, 1e-5 * cloth.dryMass(5));
@@ -254,4 +252,4 @@ TEST_P(OwnEffect, ThatIsNotOursCannotBeRemoved) {
 WETCLOTH_IN_EVERY_WORLD(OwnEffect);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::effect_test

@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::no_effects_no_change_test {
 
 namespace {
 
@@ -87,4 +85,4 @@ TEST_P(NoEffectsNoChange, OnTheBodyItself) {
 WETCLOTH_IN_EVERY_WORLD(NoEffectsNoChange);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::no_effects_no_change_test

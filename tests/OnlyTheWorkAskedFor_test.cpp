@@ -3,9 +3,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::only_the_work_asked_for_test {
 
 namespace {
 
@@ -34,12 +32,12 @@ TEST_P(OnlyTheWorkAskedFor, IsNoneAfterSaturation) {
     EXPECT_NEAR(soaked.cloth.meanSaturation(), 1, 1e-12);
     const long long visited = soaked.soak->nodesVisited();
     const long long commits = soaked.cloth.masses().commits();
-    const long long refreshes = soaked.cloth.masses().linkRefreshes();
+    const long long refreshes = soaked.cloth.linkConstants().refreshes();
     EXPECT_GT(visited, 0);
     soaked.scene.bullet.step(50);
     EXPECT_EQ(soaked.soak->nodesVisited(), visited);
     EXPECT_EQ(soaked.cloth.masses().commits(), commits);
-    EXPECT_EQ(soaked.cloth.masses().linkRefreshes(), refreshes);
+    EXPECT_EQ(soaked.cloth.linkConstants().refreshes(), refreshes);
   }
 }
 
@@ -122,4 +120,4 @@ TEST_P(OnlyTheWorkAskedFor, IsDoneAtOnceWhenWaterIsSetByHand) {
 WETCLOTH_IN_EVERY_WORLD(OnlyTheWorkAskedFor);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::only_the_work_asked_for_test

@@ -6,9 +6,7 @@
 
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::ropes_and_points_test {
 
 namespace {
 
@@ -113,4 +111,4 @@ TEST_P(RopesAndPoints, RemovedSpringsGiveTheLinksBack) {
 WETCLOTH_IN_EVERY_WORLD(RopesAndPoints);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::ropes_and_points_test

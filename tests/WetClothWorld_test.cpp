@@ -5,9 +5,7 @@
 
 #include <thread>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::wet_cloth_world_test {
 
 namespace {
 
@@ -137,4 +135,4 @@ TEST_P(SeveralCloths, AreFoundRemovedAndAddedAgain) {
 WETCLOTH_IN_EVERY_WORLD(SeveralCloths);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::wet_cloth_world_test

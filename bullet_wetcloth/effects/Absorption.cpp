@@ -33,7 +33,8 @@ void Absorption::setExposure(Exposure exposure) {
   exposure.requireValid("Absorption.exposure");
   if (m_uptake.size() > 0) exposure.requireSize("Absorption.exposure", m_uptake.size());
   m_parameters.exposure = std::move(exposure);
-  m_settled = m_hasNormals = false;
+  m_nothingLeft.restart();
+  m_hasNormals = false;
 }
 
 void Absorption::attach(WetCloth& cloth) {
@@ -41,11 +42,12 @@ void Absorption::attach(WetCloth& cloth) {
   if (firstTime) m_parameters.exposure.requireSize("Absorption.exposure", cloth.water().size());
   m_uptake.reset(cloth.water().size());
   m_timeConstant = cloth.fabric().timeConstant;
-  m_settled = m_hasNormals = false;
+  m_nothingLeft.restart();
+  m_hasNormals = false;
 }
 
 void Absorption::apply(WetCloth& cloth, const Step& step) {
-  if (m_settled && m_settledRevision == cloth.water().revision()) return;
+  if (m_nothingLeft.holds(cloth.water())) return;
   const Exposure& exposure = m_parameters.exposure;
   if (exposure.isFunction() && !m_hasNormals) {
     // Bullet computes normals at the end of a step: a body that has never stepped has none yet.
@@ -63,8 +65,7 @@ void Absorption::apply(WetCloth& cloth, const Step& step) {
     settled = settled && (isFull || (nodeShare == 0 && !exposure.isFunction()));
   }
   m_nodesVisited += static_cast<long long>(m_uptake.size());
-  m_settled = settled;
-  m_settledRevision = cloth.water().revision();
+  m_nothingLeft.note(cloth.water(), settled);
 }
 
 double Absorption::share(double exposure, const Step& step) const {
@@ -88,7 +89,8 @@ bool Absorption::takeUp(WetCloth& cloth, std::size_t node, double share) {
 
 void Absorption::transferState(StateArchive& archive) {
   m_uptake.transferState(archive);
-  archive.value(m_settledRevision, m_settled, m_hasNormals, m_nodesVisited);
+  m_nothingLeft.transferState(archive);
+  archive.value(m_hasNormals, m_nodesVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Effect.h"
 #include "bullet_wetcloth/effects/Exposure.h"
 #include "bullet_wetcloth/numerics/NodeUptake.h"
+#include "bullet_wetcloth/numerics/NothingLeft.h"
 
 #include <cstddef>
 
@@ -66,8 +67,7 @@ class WETCLOTH_EXPORT Absorption : public Effect {
   Parameters m_parameters;
   double m_timeConstant = 0;
   NodeUptake m_uptake;
-  unsigned long long m_settledRevision = 0;
-  bool m_settled = false;
+  NothingLeft m_nothingLeft;
   bool m_hasNormals = false;
   long long m_nodesVisited = 0;
 };

@@ -6,6 +6,7 @@
 #include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/audit/PassageFinder.h"
 #include "bullet_wetcloth/audit/SweptFaces.h"
+#include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <LinearMath/btIDebugDraw.h>
@@ -87,9 +88,7 @@ AuditTotals CollisionAudit::totals() const {
 
 void CollisionAudit::attach(WetCloth& cloth) {
   const btSoftBody& body = cloth.body();
-  if (body.m_faces.size() == 0) {
-    rejectValue("CollisionAudit: body.m_faces.size()", 0, "at least 1: a rope has nothing that it looks at");
-  }
+  requireFaces("CollisionAudit", body);
   m_cloth = &cloth;
   m_own->build(body);
   reset();
@@ -195,14 +194,13 @@ bool CollisionAudit::follow(const btSoftBody& body) {
 
 // Of two cloths that look at each other, the one that was added first counts.
 bool CollisionAudit::isOurs(const btSoftBody& other) const {
-  const auto looksAtOthers = [](const std::unique_ptr<Effect>& effect) {
-    const auto* audit = dynamic_cast<const CollisionAudit*>(effect.get());
-    return audit && audit->m_parameters.others;
-  };
-  for (const auto& cloth : m_cloth->world().cloths()) {
-    if (cloth.get() == m_cloth) return true;
-    if (&cloth->body() != &other) continue;
-    return std::none_of(cloth->effects().begin(), cloth->effects().end(), looksAtOthers);
+  for (const WetCloth& cloth : m_cloth->world().cloths()) {
+    if (&cloth == m_cloth) return true;
+    if (&cloth.body() != &other) continue;
+    bool looksAtOthers = false;
+    cloth.forEach<CollisionAudit>(
+        [&](const CollisionAudit& audit) { looksAtOthers = looksAtOthers || audit.m_parameters.others; });
+    return !looksAtOthers;
   }
   return true;
 }

@@ -95,8 +95,8 @@ class WETCLOTH_EXPORT CollisionAudit : public Effect {
   void draw(btIDebugDraw& drawer) const;
 
   const char* name() const override { return "CollisionAudit"; }
-  /// The first stage, which runs while Bullet lets the body sleep, too: sleeping nodes may move.
-  Stage stage() const override { return Stage::sources; }
+  /// It runs while Bullet lets the body sleep, too: sleeping nodes may move.
+  Stage stage() const override { return Stage::observe; }
   /// Throws std::invalid_argument when the body has no faces.
   void attach(WetCloth& cloth) override;
   void detach(WetCloth& cloth) override;

@@ -52,11 +52,9 @@ bool isGone(const WetCloth& cloth, const RigidContact& contact) {
 bool isUpToDate(const WetCloth& cloth) { return cloth.nodeCount() == cloth.body().m_nodes.size(); }
 
 bool wetsCloths(const WetCloth& cloth) {
-  for (const auto& effect : cloth.effects()) {
-    const auto* wetting = dynamic_cast<const ContactWetting*>(effect.get());
-    if (wetting && wetting->parameters().cloths) return true;
-  }
-  return false;
+  bool wets = false;
+  cloth.forEach<ContactWetting>([&](const ContactWetting& effect) { wets = wets || effect.parameters().cloths; });
+  return wets;
 }
 
 }  // namespace
@@ -170,9 +168,9 @@ void ContactWetting::takeFromFilm(WetCloth& cloth, const Step& step, const Rigid
 
 // Whether the other cloth has the effect, too, and was added first.
 bool ContactWetting::isSeenToBy(const WetCloth& cloth, const WetCloth& other) const {
-  for (const auto& candidate : cloth.world().cloths()) {
-    if (candidate.get() == &cloth) return false;
-    if (candidate.get() == &other) return wetsCloths(other);
+  for (const WetCloth& candidate : cloth.world().cloths()) {
+    if (&candidate == &cloth) return false;
+    if (&candidate == &other) return wetsCloths(other);
   }
   return false;
 }

@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/mesh/IntrinsicDelaunay.h"
 #include "bullet_wetcloth/numerics/DiffusionSolver.h"
 #include "bullet_wetcloth/numerics/Direction.h"
@@ -66,9 +67,7 @@ long long Diffusion::factorizations() const { return m_solver->factorizations();
 long long Diffusion::iterations() const { return m_solver->iterations(); }
 
 void Diffusion::attach(WetCloth& cloth) {
-  if (cloth.body().m_faces.size() == 0) {
-    reject("Diffusion", "the body has no faces, and water spreads over triangles: a rope has none");
-  }
+  requireFaces("Diffusion", cloth.body());
   rememberWarp(cloth);
   m_flow->reset(cloth.restMesh(), diffusionEdges(cloth.restMesh(), m_parameters, m_warpCoordinate));
   m_solver->reset(m_flow->nodeCount());

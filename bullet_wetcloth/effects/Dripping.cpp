@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <cmath>
@@ -30,24 +31,21 @@ Dripping::Dripping(Parameters parameters) : m_parameters(std::move(parameters)) 
 void Dripping::setHoldingSaturation(double holdingSaturation) {
   requireFraction("Dripping.holdingSaturation", holdingSaturation);
   m_parameters.holdingSaturation = holdingSaturation;
-  m_hasNoExcess = false;
+  m_nothingLeft.restart();
   m_steadyState.restart();
 }
 
 void Dripping::setOnDrip(std::function<void(const Drip&)> onDrip) { m_parameters.onDrip = std::move(onDrip); }
 
 void Dripping::attach(WetCloth& cloth) {
-  if (cloth.body().m_faces.size() == 0) {
-    rejectValue("Dripping: body.m_faces.size()", 0,
-                "at least 1: low points are found along the edges of triangles, and a rope has none");
-  }
+  requireFaces("Dripping", cloth.body());
   m_mesh = &cloth.restMesh();
   const std::size_t nodes = cloth.water().size();
-  m_carry.assign(nodes, 0);
+  m_carry.reset(nodes);
   // What dripped from nodes that are gone is some other node's to report.
   for (std::size_t i = nodes; i < m_pending.size(); ++i) m_pending[0] += m_pending[i];
   m_pending.resize(nodes, 0);
-  m_hasNoExcess = false;
+  m_nothingLeft.restart();
   m_steadyState.restart();
 }
 
@@ -55,7 +53,7 @@ void Dripping::apply(WetCloth& cloth, const Step& step) {
   const btScalar gravity = step.gravity.length();
   if (!(gravity > 0 && std::isfinite(gravity))) return;
   Water& water = cloth.water();
-  if (m_hasNoExcess && m_revisionWithoutExcess == water.revision()) return;
+  if (m_nothingLeft.holds(water)) return;
   if (m_steadyState.isReached(cloth, step)) return;
 
   const btVector3 down = step.gravity / gravity;
@@ -71,8 +69,7 @@ void Dripping::apply(WetCloth& cloth, const Step& step) {
     report(cloth, step, i);
   }
   m_nodesVisited += static_cast<long long>(m_carry.size());
-  m_hasNoExcess = !hasExcess;
-  m_revisionWithoutExcess = water.revision();
+  m_nothingLeft.note(water, !hasExcess);
   // However slowly a node drips, it drips on: only when none does may the cloth's shape decide when to look again.
   m_steadyState.note(cloth, step, drips ? water.totalCapacity() : 0);
 }
@@ -97,10 +94,9 @@ void Dripping::shed(Water& water, std::size_t node, double dt) {
   const double exact = held - m_carry[node];
   const double leaving = drippingStep(exact, holding, m_parameters.timeConstant, dt);
   const bool isLast = exact - leaving - holding <= kNegligible * water.capacity(node);
-  // Many small portions would be lost to rounding against a large amount of water; the carry keeps them.
-  const double portion = isLast ? held - holding : leaving + m_carry[node];
-  const double left = water.drip(node, portion);
-  m_carry[node] = isLast ? 0 : portion - left;
+  const auto drip = [&](double mass) { return water.drip(node, mass); };
+  const double left = isLast ? drip(held - holding) : m_carry.pass(node, leaving, drip);
+  if (isLast) m_carry.settle(node);
   m_pending[node] += left;
   m_dripped.add(left);
 }
@@ -117,11 +113,12 @@ void Dripping::report(WetCloth& cloth, const Step& step, std::size_t node) {
 }
 
 void Dripping::transferState(StateArchive& archive) {
-  archive.array(m_carry);
+  m_carry.transferState(archive);
   archive.array(m_pending);
   m_dripped.transferState(archive);
   m_steadyState.transferState(archive);
-  archive.value(m_drops, m_revisionWithoutExcess, m_hasNoExcess, m_nodesVisited);
+  m_nothingLeft.transferState(archive);
+  archive.value(m_drops, m_nodesVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -3,6 +3,8 @@
 
 #include "bullet_wetcloth/Effect.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
+#include "bullet_wetcloth/numerics/NothingLeft.h"
+#include "bullet_wetcloth/numerics/RoundingCarry.h"
 #include "bullet_wetcloth/numerics/SteadyState.h"
 #include "bullet_wetcloth/water/Water.h"
 
@@ -90,13 +92,12 @@ class WETCLOTH_EXPORT Dripping : public Effect {
 
   Parameters m_parameters;
   const RestMesh* m_mesh = nullptr;
-  std::vector<double> m_carry;    // what each node lost but its rounded water could not show yet [kg]
+  RoundingCarry m_carry;
   std::vector<double> m_pending;  // what left each node since its last drop [kg]
   CompensatedSum m_dripped;
   long long m_drops = 0;
   SteadyState m_steadyState{SteadyState::DependsOn::waterAndShape};
-  unsigned long long m_revisionWithoutExcess = 0;
-  bool m_hasNoExcess = false;
+  NothingLeft m_nothingLeft;  // above the holding capacity
   long long m_nodesVisited = 0;
 };
 

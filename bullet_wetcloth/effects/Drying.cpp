@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -88,24 +89,24 @@ void Drying::setAir(WindField air) {
 
 void Drying::setExposure(Exposure exposure) {
   exposure.requireValid("Drying.exposure");
-  if (!m_carry.empty()) exposure.requireSize("Drying.exposure", m_carry.size());
+  if (m_carry.size() > 0) exposure.requireSize("Drying.exposure", m_carry.size());
   m_parameters.exposure = std::move(exposure);
-  m_isDry = m_hasNormals = false;
+  m_nothingLeft.restart();
+  m_hasNormals = false;
 }
 
 void Drying::attach(WetCloth& cloth) {
-  if (cloth.body().m_faces.size() == 0) {
-    rejectValue("Drying: body.m_faces.size()", 0, "at least 1: water dries by area, and a rope has none");
-  }
-  const bool firstTime = m_carry.empty();
+  requireFaces("Drying", cloth.body());
+  const bool firstTime = m_carry.size() == 0;
   if (firstTime) m_parameters.exposure.requireSize("Drying.exposure", cloth.water().size());
   m_areas = cloth.restMesh().nodeAreas();
-  m_carry.assign(cloth.water().size(), 0);
-  m_isDry = m_hasNormals = false;
+  m_carry.reset(cloth.water().size());
+  m_nothingLeft.restart();
+  m_hasNormals = false;
 }
 
 void Drying::apply(WetCloth& cloth, const Step& step) {
-  if (m_stillAirRate == 0 || (m_isDry && m_dryRevision == cloth.water().revision())) return;
+  if (m_stillAirRate == 0 || m_nothingLeft.holds(cloth.water())) return;
   if (m_parameters.exposure.isFunction() && !m_hasNormals) {
     // Bullet computes normals at the end of a step: a body that has never stepped has none yet.
     cloth.body().updateNormals();
@@ -117,8 +118,7 @@ void Drying::apply(WetCloth& cloth, const Step& step) {
     isDry = isDry && isNodeDry;
   }
   m_nodesVisited += static_cast<long long>(m_carry.size());
-  m_isDry = isDry;
-  m_dryRevision = cloth.water().revision();
+  m_nothingLeft.note(cloth.water(), isDry);
 }
 
 double Drying::rateOf(const WetCloth& cloth, const Step& step, std::size_t node) const {
@@ -148,16 +148,20 @@ bool Drying::dry(WetCloth& cloth, const Step& step, std::size_t node) {
   const double exact = held - m_carry[node];
   const double leaving = dryingStep(exact, m_parameters.criticalSaturation * water.capacity(node), rate, step.dt);
   const bool isLast = exact - leaving <= kNegligible * water.capacity(node);
-  // Many small portions would be lost to rounding against a large amount of water; the carry keeps them.
-  const double portion = isLast ? held : leaving + m_carry[node];
-  const double left = water.evaporate(node, portion);
-  m_carry[node] = isLast ? 0 : portion - left;
-  return isLast;
+  const auto evaporate = [&](double mass) { return water.evaporate(node, mass); };
+  if (!isLast) {
+    m_carry.pass(node, leaving, evaporate);
+    return false;
+  }
+  evaporate(held);
+  m_carry.settle(node);
+  return true;
 }
 
 void Drying::transferState(StateArchive& archive) {
-  archive.array(m_carry);
-  archive.value(m_dryRevision, m_isDry, m_hasNormals, m_nodesVisited);
+  m_carry.transferState(archive);
+  m_nothingLeft.transferState(archive);
+  archive.value(m_hasNormals, m_nodesVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -4,6 +4,8 @@
 #include "bullet_wetcloth/Effect.h"
 #include "bullet_wetcloth/effects/Exposure.h"
 #include "bullet_wetcloth/effects/WindField.h"
+#include "bullet_wetcloth/numerics/NothingLeft.h"
+#include "bullet_wetcloth/numerics/RoundingCarry.h"
 
 #include <cstddef>
 #include <vector>
@@ -78,9 +80,8 @@ class WETCLOTH_EXPORT Drying : public Effect {
   Parameters m_parameters;
   double m_stillAirRate = 0;  // of all sides [kg/m^2/s]
   std::vector<double> m_areas;
-  std::vector<double> m_carry;  // what each node lost but its rounded water could not show yet [kg]
-  unsigned long long m_dryRevision = 0;
-  bool m_isDry = false;
+  RoundingCarry m_carry;
+  NothingLeft m_nothingLeft;
   bool m_hasNormals = false;
   long long m_nodesVisited = 0;
 };

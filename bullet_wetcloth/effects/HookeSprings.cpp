@@ -50,12 +50,9 @@ void HookeSprings::attach(WetCloth& cloth) {
   btSoftBody& body = cloth.body();
   const std::size_t links = static_cast<std::size_t>(body.m_links.size());
   if (links == 0) rejectValue("HookeSprings: body.m_links.size()", 0, "at least 1: the springs are the body's links");
-  for (const auto& effect : cloth.effects()) {
-    // A second one would take the first one's powerless links for the body's own.
-    if (effect.get() != this && dynamic_cast<const HookeSprings*>(effect.get())) {
-      reject("HookeSprings", "the cloth has them already");
-    }
-  }
+  // A second one would take the first one's powerless links for the body's own.
+  const HookeSprings* const known = cloth.find<HookeSprings>();
+  if (known && known != this) reject("HookeSprings", "the cloth has them already");
   const bool isFirst = !m_powerless;
   if (isFirst && !m_parameters.perLink.empty() && m_parameters.perLink.size() != links) {
     rejectValue("HookeSprings.perLink.size()", m_parameters.perLink.size(),
@@ -80,10 +77,10 @@ double HookeSprings::stiffnessOf(const btSoftBody::Link& link, std::size_t index
 }
 
 void HookeSprings::scaleStiffness(WetCloth& cloth) {
-  const NodeMasses& masses = cloth.masses();
-  if (masses.linkStiffnessRevision() == m_stiffnessRevision) return;
-  m_stiffnessRevision = masses.linkStiffnessRevision();
-  const std::vector<btScalar>& factors = masses.linkStiffness();
+  const LinkConstants& links = cloth.linkConstants();
+  if (links.stiffnessRevision() == m_stiffnessRevision) return;
+  m_stiffnessRevision = links.stiffnessRevision();
+  const std::vector<btScalar>& factors = links.stiffness();
   const bool isScaled = factors.size() == m_springs.size();
   for (std::size_t k = 0; k < m_springs.size(); ++k) {
     const double own = stiffnessOf(cloth.body().m_links[static_cast<int>(k)], k);
@@ -105,7 +102,7 @@ void HookeSprings::disableLinks(WetCloth& cloth) {
     if (isNew) m_ownMaterials.push_back(material == m_powerless ? body.m_materials[0] : material);
     material = m_powerless;
   }
-  cloth.masses().refreshLinks();
+  cloth.linkConstants().refresh();
 }
 
 void HookeSprings::detach(WetCloth& cloth) {
@@ -114,7 +111,7 @@ void HookeSprings::detach(WetCloth& cloth) {
     const std::size_t index = static_cast<std::size_t>(k);
     body.m_links[k].m_material = index < m_ownMaterials.size() ? m_ownMaterials[index] : body.m_materials[0];
   }
-  cloth.masses().refreshLinks();
+  cloth.linkConstants().refresh();
 }
 
 void HookeSprings::apply(WetCloth& cloth, const Step& step) {

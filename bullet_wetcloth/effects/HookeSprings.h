@@ -32,7 +32,7 @@ WETCLOTH_EXPORT btVector3 hookeForce(const btVector3& a, const btVector3& b, dou
 /// Works in all three worlds. In the deformable world Bullet has springs of its own (btDeformableMassSpringForce):
 /// use those or this, not both.
 ///
-/// K follows NodeMasses::setLinkStiffness(), which WetStiffness sets, in whatever order the two are added.
+/// K follows LinkConstants::setStiffness(), which WetStiffness sets, in whatever order the two are added.
 class WETCLOTH_EXPORT HookeSprings : public Effect {
  public:
   struct Parameters {
@@ -73,7 +73,7 @@ class WETCLOTH_EXPORT HookeSprings : public Effect {
   std::unique_ptr<SpringSolver> m_solver;  // behind a pointer, so that Eigen stays out of this header
   std::vector<Spring> m_springs;
   std::vector<SpringNode> m_nodes;
-  unsigned long long m_stiffnessRevision = 0;         // of NodeMasses::setLinkStiffness()
+  unsigned long long m_stiffnessRevision = 0;         // of LinkConstants::setStiffness()
   btSoftBody::Material* m_powerless = nullptr;        // appended to the body, which owns it
   std::vector<btSoftBody::Material*> m_ownMaterials;  // of each link before us
 };

@@ -45,7 +45,7 @@ void Immersion::attach(WetCloth& cloth) {
   m_uptake.reset(cloth.water().size());
   m_timeConstant = cloth.fabric().timeConstant;
   m_steadyState.restart();
-  m_isFull = false;
+  m_nothingLeft.restart();
 }
 
 void Immersion::apply(WetCloth& cloth, const Step& step) {
@@ -60,7 +60,7 @@ void Immersion::noticeSurface(const std::optional<WaterSurface>& surface) {
 }
 
 bool Immersion::isIdle(const WetCloth& cloth, const Step& step) {
-  if (m_isFull && m_fullRevision == cloth.water().revision()) return true;
+  if (m_nothingLeft.holds(cloth.water())) return true;
   if (!m_steadyState.isReached(cloth, step)) return false;
   if (reach(cloth.body()) < m_reachLimit) return true;
   m_steadyState.restart();
@@ -89,8 +89,7 @@ void Immersion::soak(WetCloth& cloth, const Step& step) {
     isSoaking = isSoaking || !filled;
   }
   m_nodesVisited += static_cast<long long>(m_uptake.size());
-  m_isFull = isFull;
-  m_fullRevision = water.revision();
+  m_nothingLeft.note(water, isFull);
   m_reachLimit = isWet ? kInfinity : reach(cloth.body()) + clearance / 4;
   // An exponential that has slowed down is not yet at its end: what counts is whether anything is left to soak.
   m_steadyState.note(cloth, step, isSoaking ? water.totalCapacity() : 0);
@@ -108,7 +107,8 @@ void Immersion::transferState(StateArchive& archive) {
   m_uptake.transferState(archive);
   m_steadyState.transferState(archive);
   archive.optional(m_surface, [&](WaterSurface& surface) { surface.transferState(archive); });
-  archive.value(m_reachLimit, m_isFull, m_fullRevision, m_nodesVisited);
+  m_nothingLeft.transferState(archive);
+  archive.value(m_reachLimit, m_nodesVisited);
 }
 
 }  // namespace WETCLOTH_PRECISION

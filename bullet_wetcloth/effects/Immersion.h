@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Effect.h"
 #include "bullet_wetcloth/effects/WaterSurface.h"
 #include "bullet_wetcloth/numerics/NodeUptake.h"
+#include "bullet_wetcloth/numerics/NothingLeft.h"
 #include "bullet_wetcloth/numerics/SteadyState.h"
 
 #include <optional>
@@ -59,8 +60,7 @@ class WETCLOTH_EXPORT Immersion : public Effect {
   double m_timeConstant = 0;
   std::optional<WaterSurface> m_surface;  // in the last step
   double m_reachLimit = 0;                // depth of the body's bounds at which an idle cloth above is looked at [m]
-  bool m_isFull = false;
-  unsigned long long m_fullRevision = 0;
+  NothingLeft m_nothingLeft;              // to fill
   long long m_nodesVisited = 0;
 };
 

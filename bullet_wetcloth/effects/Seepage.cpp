@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/mesh/IntrinsicDelaunay.h"
 #include "bullet_wetcloth/numerics/EdgeFlow.h"
 #include "bullet_wetcloth/state/StateArchive.h"
@@ -50,9 +51,7 @@ Seepage::Seepage(Parameters parameters) : m_parameters(parameters), m_flow(std::
 Seepage::~Seepage() = default;
 
 void Seepage::attach(WetCloth& cloth) {
-  if (cloth.body().m_faces.size() == 0) {
-    reject("Seepage", "the body has no faces, and water seeps along triangles: a rope has none");
-  }
+  requireFaces("Seepage", cloth.body());
   m_flow->reset(cloth.restMesh(), delaunayWeights(measuredTriangles(cloth.restMesh())));
   for (auto* array : {&m_depths, &m_conductivity, &m_outflow}) array->assign(m_flow->nodeCount(), 0);
   for (auto* array : {&m_fluxes, &m_substepFluxes}) array->assign(m_flow->edges().size(), 0);

@@ -38,11 +38,8 @@ void Swelling::attach(WetCloth& cloth) {
   if (body.m_links.size() == 0) {
     rejectValue("Swelling: body.m_links.size()", 0, "at least 1: what changes is the rest length of links");
   }
-  for (const auto& effect : cloth.effects()) {
-    if (effect.get() != this && dynamic_cast<const Swelling*>(effect.get())) {
-      reject("Swelling", "the cloth has one already");
-    }
-  }
+  const Swelling* const other = cloth.find<Swelling>();
+  if (other && other != this) reject("Swelling", "the cloth has one already");
   const std::size_t known = m_lengths.size();
   const bool isFirst = known == 0;
   m_saturation.reset(cloth);

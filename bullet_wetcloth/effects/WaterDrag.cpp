@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/numerics/FluidResistance.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -70,9 +71,7 @@ void WaterDrag::setSurface(const WaterSurface& surface) {
 }
 
 void WaterDrag::attach(WetCloth& cloth) {
-  if (cloth.body().m_faces.size() == 0) {
-    rejectValue("WaterDrag: body.m_faces.size()", 0, "at least 1: water resists triangles, and a rope has none");
-  }
+  requireFaces("WaterDrag", cloth.body());
   const bool firstTime = m_mesh == nullptr;  // later, the application may have let the water out
   if (firstTime) requireSurface("WaterDrag.surface", m_parameters.surface, cloth.body());
   m_mesh = &cloth.restMesh();

@@ -34,13 +34,6 @@ double saturationAt(const Water& water, const ContactPoint& point) {
   return saturation;
 }
 
-const WetFriction* frictionOf(const WetCloth& cloth) {
-  for (const auto& effect : cloth.effects()) {
-    if (const auto* friction = dynamic_cast<const WetFriction*>(effect.get())) return friction;
-  }
-  return nullptr;
-}
-
 // In the precision in which a body whose kDF had been set to the product would hold it.
 btScalar scaled(btScalar coefficient, double factor) {
   return static_cast<btScalar>(static_cast<double>(coefficient) * factor);
@@ -113,7 +106,7 @@ void WetFriction::changeRigid(const WetCloth& cloth, const RigidContact& contact
 void WetFriction::changeSoft(WetCloth& cloth, btSoftBody& other) {
   const WetCloth* otherCloth = cloth.world().find(other);
   if (otherCloth && otherCloth->nodeCount() != other.m_nodes.size()) otherCloth = nullptr;
-  const WetFriction* otherFriction = otherCloth ? frictionOf(*otherCloth) : nullptr;
+  const WetFriction* otherFriction = otherCloth ? otherCloth->find<WetFriction>() : nullptr;
   const auto change = [&](btSoftBody::SContact& entry, const ContactPoint& own, const ContactPoint& theirs) {
     ++m_contactsVisited;
     const double factor = factorAt(cloth, own);

@@ -7,7 +7,6 @@
 #include "bullet_wetcloth/effects/HookeSprings.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -23,13 +22,6 @@ void requireFactor(const std::string& field, double value) {
 void requireDamping(double dry, double wet) {
   requireNotNegative("WetStiffness.dryDamping", dry);
   requireNotNegative("WetStiffness.wetDamping", wet);
-}
-
-template <class E>
-bool hasAnother(const WetCloth& cloth, const Effect* self) {
-  return std::any_of(cloth.effects().begin(), cloth.effects().end(), [self](const auto& effect) {
-    return effect.get() != self && dynamic_cast<const E*>(effect.get()) != nullptr;
-  });
 }
 
 }  // namespace
@@ -60,8 +52,9 @@ void WetStiffness::setDamping(double dry, double wet) {
 void WetStiffness::attach(WetCloth& cloth) {
   const int links = cloth.body().m_links.size();
   if (links == 0) rejectValue("WetStiffness: body.m_links.size()", 0, "at least 1: stiffness is that of links");
-  if (hasAnother<WetStiffness>(cloth, this)) reject("WetStiffness", "the cloth has one already");
-  if (scales() && cloth.isInDeformableWorld() && !hasAnother<HookeSprings>(cloth, this)) {
+  const WetStiffness* const other = cloth.find<WetStiffness>();
+  if (other && other != this) reject("WetStiffness", "the cloth has one already");
+  if (scales() && cloth.isInDeformableWorld() && !cloth.find<HookeSprings>()) {
     reject("WetStiffness",
            "in the deformable world Bullet's springs have one stiffness for all links and read none per link; add "
            "HookeSprings first, or set wetStretch and wetBending to 1");
@@ -75,8 +68,8 @@ void WetStiffness::attach(WetCloth& cloth) {
 
 void WetStiffness::detach(WetCloth& cloth) {
   if (!scales()) return;
-  cloth.masses().setLinkStiffness({});
-  cloth.masses().refreshLinks();
+  cloth.linkConstants().setStiffness({});
+  cloth.linkConstants().refresh();
 }
 
 void WetStiffness::apply(WetCloth& cloth, const Step& step) {
@@ -88,7 +81,7 @@ void WetStiffness::apply(WetCloth& cloth, const Step& step) {
   if (scales() && (changed || m_factorsAreStale)) {
     scaleLinks(cloth);
   } else if (scales() && constantsWereReset) {
-    cloth.masses().refreshLinks();
+    cloth.linkConstants().refresh();
   }
   if (!damps()) return;
   if (changed || step.dt != m_sharesDt) updateShares(step.dt);
@@ -104,9 +97,9 @@ void WetStiffness::scaleLinks(WetCloth& cloth) {
   }
   m_linksVisited += static_cast<long long>(m_factors.size());
   m_factorsAreStale = false;
-  cloth.masses().setLinkStiffness(m_factors);
+  cloth.linkConstants().setStiffness(m_factors);
   // The commit of this step, if there is one, writes the constants with the new masses.
-  if (!cloth.water().movedSinceCommit()) cloth.masses().refreshLinks();
+  if (!cloth.water().movedSinceCommit()) cloth.linkConstants().refresh();
 }
 
 void WetStiffness::updateShares(double dt) {

@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/numerics/FluidResistance.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 #include "bullet_wetcloth/water/DryMass.h"
@@ -96,9 +97,7 @@ void Wind::setVelocity(WindField velocity) {
 
 void Wind::attach(WetCloth& cloth) {
   const btSoftBody& body = cloth.body();
-  if (body.m_faces.size() == 0) {
-    rejectValue("Wind: body.m_faces.size()", 0, "at least 1: wind pushes on triangles, and a rope has none");
-  }
+  requireFaces("Wind", body);
   m_nodes.resize(static_cast<std::size_t>(body.m_nodes.size()));
   m_drag.resize(m_nodes.size());
   m_triangles.resize(static_cast<std::size_t>(body.m_faces.size()));

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/numerics/DropCatcher.h"
 
-#include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
@@ -44,10 +43,7 @@ double caughtFlux(const btVector3& a, const btVector3& b, const btVector3& c, co
 }
 
 void DropCatcher::attach(const char* effect, const btSoftBody& body) {
-  if (body.m_faces.size() == 0) {
-    rejectValue(std::string(effect) + ": body.m_faces.size()", 0,
-                "at least 1: drops are caught by triangles, and a rope has none");
-  }
+  requireFaces(effect, body);
   const std::size_t nodes = static_cast<std::size_t>(body.m_nodes.size());
   m_positions.resize(nodes);
   m_drops.resize(nodes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "bullet_wetcloth/numerics/RoundingCarry.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 #include "bullet_wetcloth/water/Water.h"
 
@@ -8,20 +9,18 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-/// Puts water into nodes up to their capacity, and loses none of it to rounding: many small portions would be lost
-/// against a large amount of water, so what a node took but its rounded water could not show yet is carried to the
-/// next portion. A member of each effect that is a source.
+/// Puts water into nodes up to their capacity, and loses none of it to rounding. A member of each effect that is a
+/// source.
 class WETCLOTH_EXPORT NodeUptake {
  public:
   /// Nothing carried, for this many nodes.
-  void reset(std::size_t nodes) { m_carry.assign(nodes, 0); }
+  void reset(std::size_t nodes) { m_carry.reset(nodes); }
   std::size_t size() const { return m_carry.size(); }
-  void transferState(StateArchive& archive) { archive.array(m_carry); }
+  void transferState(StateArchive& archive) { m_carry.transferState(archive); }
 
   /// Water that the node can still take [kg]; not positive when it is full.
   double room(const Water& water, std::size_t node) const {
@@ -48,13 +47,15 @@ class WETCLOTH_EXPORT NodeUptake {
 
  private:
   void take(Water& water, std::size_t node, double taken, bool fills, double vx, double vy, double vz) {
-    const double before = water.held(node);
-    const double portion = taken + m_carry[node];
-    water.absorb(node, portion, vx, vy, vz);
-    m_carry[node] = fills ? 0 : portion - (water.held(node) - before);
+    m_carry.pass(node, taken, [&](double portion) {
+      const double before = water.held(node);
+      water.absorb(node, portion, vx, vy, vz);
+      return water.held(node) - before;
+    });
+    if (fills) m_carry.settle(node);
   }
 
-  std::vector<double> m_carry;  // [kg]
+  RoundingCarry m_carry;
 };
 
 }  // namespace WETCLOTH_PRECISION

@@ -60,10 +60,9 @@ void drawSaturation(const WetCloth& cloth, btIDebugDraw& drawer) {
 }
 
 void drawWind(const WetCloth& cloth, btIDebugDraw& drawer, double time, double metresPerPascal) {
-  for (const auto& effect : cloth.effects()) {
-    const auto* const wind = dynamic_cast<const Wind*>(effect.get());
-    if (wind != nullptr) drawTractions(*wind, cloth.body(), drawer, time, static_cast<btScalar>(metresPerPascal));
-  }
+  cloth.forEach<Wind>([&](const Wind& wind) {
+    drawTractions(wind, cloth.body(), drawer, time, static_cast<btScalar>(metresPerPascal));
+  });
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -19,21 +19,15 @@ void NodeMasses::remember() {
   for (int i = 0; i < m_body.m_nodes.size(); ++i) m_inverseMass[static_cast<std::size_t>(i)] = m_body.m_nodes[i].m_im;
 }
 
-void NodeMasses::commit(Water& water) {
+bool NodeMasses::commit(Water& water) {
   const bool changed = writeNodes(water);
   water.clearArrivals();
-  if (!changed && !m_linksAreStale) return;
-  // Reads the masses from the packed array: the nodes are several cache lines each.
-  if (m_body.m_links.size() > 0) {
-    const btSoftBody::Node* const nodes = &m_body.m_nodes[0];
-    const btScalar* const inverseMass = m_inverseMass.data();
-    writeLinks([=](const btSoftBody::Node* node) { return inverseMass[node - nodes]; });
-  }
-  if (!changed) return;
+  if (!changed) return false;
   ++m_commits;
   if (m_body.m_clusters.size() > 0) refreshClusters();
   if (m_body.m_pose.m_bframe) refreshPose();
   if (m_deformable) refreshDeformable();
+  return true;
 }
 
 bool NodeMasses::writeNodes(Water& water) {
@@ -76,41 +70,6 @@ void NodeMasses::mixMomentum(btSoftBody::Node& node, const Water& water, std::si
   const btVector3 deltaVelocity(change(0), change(1), change(2));
   node.m_v += deltaVelocity;
   if (m_deformable) node.m_vn += deltaVelocity;
-}
-
-void NodeMasses::setLinkStiffness(const std::vector<btScalar>& factors) {
-  m_linkStiffness = factors;
-  ++m_linkStiffnessRevision;
-  m_linksAreStale = true;
-}
-
-// Between commits an application may have changed a mass that we do not know yet, so this reads the nodes.
-void NodeMasses::refreshLinks() {
-  writeLinks([](const btSoftBody::Node* node) { return node->m_im; });
-}
-
-// As btSoftBody::updateLinkConstants(), bit for bit, while no link's stiffness is scaled.
-template <class InverseMassOf>
-void NodeMasses::writeLinks(InverseMassOf inverseMassOf) {
-  ++m_linkRefreshes;
-  m_linksAreStale = false;
-  if (m_body.m_links.size() == 0) return;
-  btSoftBody::Link* link = &m_body.m_links[0];
-  btSoftBody::Link* const end = link + m_body.m_links.size();
-  if (m_linkStiffness.size() != static_cast<std::size_t>(m_body.m_links.size())) {
-    for (; link != end; ++link) {
-      const btScalar sum = inverseMassOf(link->m_n[0]) + inverseMassOf(link->m_n[1]);
-      const btScalar stiffness = link->m_material->m_kLST;
-      link->m_c0 = stiffness == 1 ? sum : sum / stiffness;
-    }
-    return;
-  }
-  const btScalar* factor = m_linkStiffness.data();
-  for (; link != end; ++link, ++factor) {
-    const btScalar sum = inverseMassOf(link->m_n[0]) + inverseMassOf(link->m_n[1]);
-    const btScalar stiffness = link->m_material->m_kLST;
-    link->m_c0 = sum / std::min(stiffness * *factor, std::max(stiffness, btScalar(1)));
-  }
 }
 
 // As btSoftBody::initializeClusters(), which cannot run on a moving body (it zeroes velocities and leaks the
@@ -190,8 +149,7 @@ void NodeMasses::refreshDeformable() {
 
 void NodeMasses::transferState(StateArchive& archive) {
   archive.array(m_inverseMass);
-  archive.growingArray(m_linkStiffness);
-  archive.value(m_linkStiffnessRevision, m_linksAreStale, m_commits, m_linkRefreshes);
+  archive.value(m_commits);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -8,10 +8,11 @@
 #include "command/accuracy/StudyPlot.h"
 #include "command/accuracy/StudyReport.h"
 
+#include "command/cli/CommonOptions.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
+#include "command/cli/PrecisionProgram.h"
 #include "command/cli/Progress.h"
-#include "command/cli/Sibling.h"
 #include "command/pictures/ChildProgram.h"
 #include "command/plot/PlotFiles.h"
 
@@ -21,8 +22,10 @@
 #include <iostream>
 #include <memory>
 #include <random>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace accuracy {
 namespace {
@@ -30,14 +33,22 @@ namespace {
 using Json = nlohmann::ordered_json;
 using command::Precision;
 
+struct AccuracyOptions {
+  std::string study = "all";
+  bool isQuick = false;
+  std::string directory;  ///< of the plots and the page; empty: none
+  std::string precision;  ///< empty: that of this program
+  std::string json;
+};
+
 std::vector<Study> carryOutNamed(const std::string& name, CarryOutStudies carryOut, const Effort& effort) {
   command::Progress progress("studying " + name);
   return carryOut(effort, [&](double fraction) { progress.update(fraction); });
 }
 
 /// The quick studies of the other precision's program, or null when it is not there.
-nlohmann::json quickStudiesOf(Precision precision, char** arguments) {
-  const std::string program = command::programOf(precision, arguments);
+nlohmann::json quickStudiesOf(Precision precision) {
+  const std::string program = command::programOf(precision);
   if (program.empty()) return nullptr;
   namespace fs = std::filesystem;
   const fs::path file = fs::temp_directory_path() / ("wetcloth-" + std::to_string(std::random_device()()) + ".json");
@@ -60,9 +71,9 @@ nlohmann::json ownQuickStudies() {
   return studies;
 }
 
-std::vector<Study> studyPrecision(char** arguments) {
+std::vector<Study> studyPrecision() {
   const bool isFloat32 = command::ownPrecision == Precision::float32;
-  const nlohmann::json others = quickStudiesOf(isFloat32 ? Precision::float64 : Precision::float32, arguments);
+  const nlohmann::json others = quickStudiesOf(isFloat32 ? Precision::float64 : Precision::float32);
   if (others.is_null()) {
     std::cerr << "wetcloth: no program of the other precision beside this one, so no study of precision\n";
     return {};
@@ -108,8 +119,7 @@ class StudyFiles {
   std::string m_page;
 };
 
-}  // namespace
-
+/// What --study takes: the names of studyNames(), "precision", "alone" and "all".
 std::vector<std::string> studyWords() {
   std::vector<std::string> words;
   for (const auto& [name, carryOut] : studyNames()) words.push_back(name);
@@ -117,11 +127,7 @@ std::vector<std::string> studyWords() {
   return words;
 }
 
-void studyAccuracy(const AccuracyOptions& options, char** arguments) {
-  if (!options.precision.empty()) {
-    command::continueInPrecision(command::valueOf(command::precisionNames(), options.precision),
-                                 "wetcloth: --precision", arguments);
-  }
+void studyAccuracy(const AccuracyOptions& options) {
   command::JsonOutput output(options.json);
   StudyFiles files(options.directory);
   Json studies = Json::array();
@@ -138,7 +144,7 @@ void studyAccuracy(const AccuracyOptions& options, char** arguments) {
   for (const auto& [name, carryOut] : studyNames()) {
     if (isAll || options.study == name) report(carryOutNamed(name, carryOut, {options.isQuick}));
   }
-  if (options.study == "all" || options.study == "precision") report(studyPrecision(arguments));
+  if (options.study == "all" || options.study == "precision") report(studyPrecision());
   files.finish();
   const std::vector<QualityRow> qualities = qualityRows(measuredJson(all));
   if (!output.ownsStandardOutput()) std::fputs(markdownOf(qualities).c_str(), stdout);
@@ -146,6 +152,23 @@ void studyAccuracy(const AccuracyOptions& options, char** arguments) {
                 {"quick", options.isQuick},
                 {"studies", studies},
                 {"qualities", jsonOf(qualities)}});
+}
+
+}  // namespace
+
+command::Command addAccuracyCommand(CLI::App& line) {
+  CLI::App* const app = line.add_subcommand("accuracy", "Measure how wrong each way to compute is, and what it takes");
+  const auto options = std::make_shared<AccuracyOptions>();
+  app->add_option("--study", options->study,
+                  "One of: absorption, diffusion, splitting, wind, cloth, mesh, collision, paper; precision: all of "
+                  "them, quick, in float32 and float64; alone: all in this precision; all")
+      ->check(command::oneOf("--study", studyWords()))
+      ->capture_default_str();
+  app->add_flag("--quick", options->isQuick, "Fewer and coarser settings, each run once");
+  app->add_option("--out", options->directory, "Directory for plots (CSV, with gnuplot SVG and PNG) and studies.md");
+  command::addPrecision(*app, options->precision);
+  command::addJson(*app, options->json);
+  return {app, [options] { studyAccuracy(*options); }, [options] { return command::wishOf(options->precision); }};
 }
 
 }  // namespace accuracy

@@ -2,11 +2,11 @@
 #include "command/ccd/CcdMethod.h"
 
 #include "command/ccd/BulletCheck.h"
+#include "command/ccd/NewtonCheck.h"
+#include "command/ccd/TextbookCheck.h"
 #include "command/cli/Errors.h"
 
 #include <bullet_wetcloth/collision/ContinuousCheck.h>
-#include <bullet_wetcloth/collision/NewtonCheck.h>
-#include <bullet_wetcloth/collision/TextbookCheck.h>
 
 #include <cstdio>
 #include <utility>
@@ -138,10 +138,10 @@ std::unique_ptr<CcdMethod> makeCcdMethod(const CcdMethodInfo& info, std::optiona
   switch (info.kind) {
     case Kind::textbook:
       return oneByOne(std::move(points),
-                      [=](const Query& query) { return wetcloth::collision::textbookCheck(pair, query, inside); });
+                      [=](const Query& query) { return comparison::textbookCheck(pair, query, inside); });
     case Kind::newton:
       return oneByOne(std::move(points),
-                      [=](const Query& query) { return wetcloth::collision::newtonCheck(pair, query, inside); });
+                      [=](const Query& query) { return comparison::newtonCheck(pair, query, inside); });
     case Kind::fast: return std::make_unique<InBatches>(pair, std::move(points), ContinuousCheck(Tier::fast, settings));
     default: break;
   }

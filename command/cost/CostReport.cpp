@@ -10,7 +10,7 @@ namespace {
 
 double floorOf(const CostEstimate& twins) { return std::max(std::fabs(twins.median), twins.halfWidth); }
 
-constexpr const char* legend =
+constexpr const char* tableLegend =
     "Each effect is toggled: what a world with all effects takes in its steps more than one without this effect, the\n"
     "worlds taking turns in one run; medians, of processor time. \"ns per node\" and \"% of Bullet's step\" count our "
     "own\n"
@@ -135,7 +135,7 @@ std::string CostReport::text() const {
                 "% of Bullet's step", "whole step, %");
   text += title;
   for (const Cost& cost : m_effects) text += row(cost);
-  return text + row(m_all) + "\n" + legend;
+  return text + row(m_all) + "\n" + tableLegend;
 }
 
 }  // namespace command

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/cost/CostWorld.h"
 
-#include "command/run/ProcessorTime.h"
+#include "command/timing/ProcessorTime.h"
 
 #include <algorithm>
 #include <cctype>
@@ -24,8 +24,8 @@ std::string keyOf(const wetcloth::Effect& effect) {
 
 void removeEffects(wetcloth::WetCloth& cloth, const std::function<bool(const wetcloth::Effect&)>& isUnwanted) {
   std::vector<wetcloth::Effect*> unwanted;
-  for (const auto& effect : cloth.effects()) {
-    if (isUnwanted(*effect)) unwanted.push_back(effect.get());
+  for (wetcloth::Effect& effect : cloth.effects()) {
+    if (isUnwanted(effect)) unwanted.push_back(&effect);
   }
   for (wetcloth::Effect* effect : unwanted) cloth.remove(*effect);
 }
@@ -75,8 +75,8 @@ CostWorld::Seconds CostWorld::step() {
 std::vector<std::string> effectNames(const SceneWorld& world) {
   std::vector<std::string> names;
   for (const wetcloth::WetCloth* cloth : world.cloths()) {
-    for (const auto& effect : cloth->effects()) {
-      const std::string key = keyOf(*effect);
+    for (const wetcloth::Effect& effect : cloth->effects()) {
+      const std::string key = keyOf(effect);
       if (std::find(names.begin(), names.end(), key) == names.end()) names.push_back(key);
     }
   }

@@ -1,17 +1,29 @@
 // SPDX-License-Identifier: Zlib
 #include "command/fall/FallCommand.h"
 
+#include "command/cli/CommonOptions.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/cli/Progress.h"
-#include "command/cli/Sibling.h"
 #include "command/fall/Fall.h"
+#include "command/scene/Scene.h"
 
 #include <cmath>
 #include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
 
 namespace command {
 namespace {
+
+struct FallOptions {
+  std::optional<double> height;  ///< [m]; none: the mode's own
+  std::string mode = "paper";
+  std::string world = "soft_rigid";
+  std::string precision;  ///< empty: this program's
+  std::string json;
+};
 
 constexpr double highest = 1000;  // a fall from higher takes this command more than a minute
 
@@ -47,15 +59,10 @@ void printTable(const std::vector<FallResult>& results, const FallMode& mode, do
   std::printf("\n%s\n", mode.remark.c_str());
 }
 
-}  // namespace
-
-void compareFalls(const FallOptions& options, char** arguments) {
+void compareFalls(const FallOptions& options) {
   const FallMode mode = options.mode == "paper" ? FallMode::paper() : FallMode::physical();
   const double height = heightOf(options, mode);
   const WorldKind world = valueOf(worldNames(), options.world);
-  if (!options.precision.empty()) {
-    continueInPrecision(valueOf(precisionNames(), options.precision), "wetcloth: --precision", arguments);
-  }
   JsonOutput output(options.json);
   std::vector<FallResult> results;
   {
@@ -72,6 +79,24 @@ void compareFalls(const FallOptions& options, char** arguments) {
                 {"dt", fallSubstep},
                 {"cases", jsonOf(results)}});
   if (!output.ownsStandardOutput()) printTable(results, mode, height, options.world);
+}
+
+}  // namespace
+
+Command addFallCommand(CLI::App& line) {
+  CLI::App* const app = line.add_subcommand("fall", "Let dry and wet cloth fall, beside plain Bullet");
+  const auto options = std::make_shared<FallOptions>();
+  app->add_option("--height", options->height, "Height of the fall [m]; default 19.62 (paper), 5.5 (physical)");
+  app->add_option("--mode", options->mode,
+                  "paper: Table II, up to 84 times as heavy, drag linear in speed; physical: cotton, quadratic drag")
+      ->check(oneOf("--mode", {"paper", "physical"}))
+      ->capture_default_str();
+  app->add_option("--world", options->world, "Which of Bullet's worlds")
+      ->check(oneOf("--world", namesOf(worldNames())))
+      ->capture_default_str();
+  addPrecision(*app, options->precision);
+  addJson(*app, options->json);
+  return {app, [options] { compareFalls(*options); }, [options] { return wishOf(options->precision); }};
 }
 
 }  // namespace command

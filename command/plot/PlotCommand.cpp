@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: Zlib
 #include "command/plot/PlotCommand.h"
 
+#include "command/cli/CommonOptions.h"
 #include "command/cli/JsonOutput.h"
 #include "command/cli/Progress.h"
 #include "command/plot/PlotFiles.h"
 #include "command/plot/Plots.h"
-#include "command/scene/Scene.h"
 
 #include <cstdio>
 #include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace command {
 namespace {
+
+struct PlotOptions {
+  std::string name = "all";
+  std::string directory;
+  std::string json;
+};
 
 std::vector<Plot> plotsOf(const std::string& name, MakePlots make) {
   Progress progress("plotting " + name);
@@ -31,8 +40,7 @@ nlohmann::ordered_json jsonOf(const Plot& plot, const PlotOptions& options, bool
           {"y", plot.yColumn}, {"series", series},    {"files", files}};
 }
 
-}  // namespace
-
+/// What it takes for a name: those of plotNames() and "all".
 std::vector<std::string> plotWords() {
   std::vector<std::string> words;
   for (const auto& [name, make] : plotNames()) words.push_back(name);
@@ -58,6 +66,23 @@ void makePlots(const PlotOptions& options) {
   if (!files.hasPictures()) {
     std::cerr << "wetcloth: no gnuplot, so no pictures, only tables (Debian: apt install gnuplot-nox)\n";
   }
+}
+
+}  // namespace
+
+Command addPlotCommand(CLI::App& line) {
+  CLI::App* const app =
+      line.add_subcommand("plot", "Plot the paper's numbers beside ours: CSV, with gnuplot SVG and PNG");
+  const auto options = std::make_shared<PlotOptions>();
+  app->add_option(
+         "name", options->name,
+         "mass: of a node that soaks; fall: height against time; fps: frames per second; wicking: profile of a "
+         "strip; springs: of the mesh; all")
+      ->check(oneOf("NAME", plotWords()))
+      ->capture_default_str();
+  app->add_option("--out", options->directory, "Directory for the files, made if it is not there")->required();
+  addJson(*app, options->json, "what was made");
+  return {app, [options] { makePlots(*options); }};
 }
 
 }  // namespace command

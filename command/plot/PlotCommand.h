@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include <string>
-#include <vector>
+#include "command/cli/Command.h"
 
 namespace command {
 
-struct PlotOptions {
-  std::string name = "all";
-  std::string directory;
-  std::string json;
-};
-
-/// What `wetcloth plot` takes for a name: those of plotNames() and "all".
-std::vector<std::string> plotWords();
-
-/// `wetcloth plot`.
-void makePlots(const PlotOptions& options);
+/// `wetcloth plot`: the paper's numbers beside ours.
+Command addPlotCommand(CLI::App& line);
 
 }  // namespace command

@@ -10,7 +10,7 @@
 namespace command {
 namespace {
 
-constexpr double step = 0.5;         // [s]
+constexpr double wickingStep = 0.5;  // [s]
 constexpr double frontLevel = 0.05;  // saturation at which the front is read
 constexpr double length = 0.2;       // [m]
 constexpr double dipped = 0.01;      // of it [m]
@@ -29,16 +29,15 @@ class Strip {
     m_patch.edgeV = btVector3(0, btScalar(length), 0);
     m_patch.pinnedEdges = {wetcloth::ClothPatch::Edge::left, wetcloth::ClothPatch::Edge::right};
     btSoftBody& body = m_world.add(m_patch.build(m_world.worldInfo()));
-    m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_world.world());
-    m_cloth = &m_wetWorld->add(body, wetcloth::Fabric::cotton());
+    m_cloth = &m_world.wet().add(body, wetcloth::Fabric::cotton());
     m_cloth->add<wetcloth::Immersion>();
     m_cloth->add<wetcloth::Diffusion>();
     if (feelsGravity) m_cloth->add<wetcloth::Seepage>();
   }
 
-  double time() const { return static_cast<double>(m_steps) * step; }
+  double time() const { return static_cast<double>(m_steps) * wickingStep; }
   void advance() {
-    m_world.substep(btScalar(step));
+    m_world.substep(btScalar(wickingStep));
     ++m_steps;
   }
   int rows() const { return m_patch.rows; }
@@ -58,7 +57,6 @@ class Strip {
  private:
   BulletWorld m_world;
   wetcloth::ClothPatch m_patch;
-  std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;
   wetcloth::WetCloth* m_cloth = nullptr;
   long long m_steps = 0;
 };
@@ -107,7 +105,7 @@ Plot profilePlot(const PlotProgress& progress) {
   plot.yRange = "[0:1.05]";
   Strip strip(true);
   for (const Moment& moment : moments) {
-    while (strip.time() < moment.time - step / 2) {
+    while (strip.time() < moment.time - wickingStep / 2) {
       strip.advance();
       progress(strip.time() / std::rbegin(moments)->time);
     }
@@ -128,7 +126,7 @@ PlotSeries frontOf(bool feelsGravity) {
   PlotSeries series;
   Strip strip(feelsGravity);
   for (const double next : frontTimes()) {
-    while (strip.time() < next - step / 2) strip.advance();
+    while (strip.time() < next - wickingStep / 2) strip.advance();
     if (strip.front() >= strip.height(strip.rows() - 1)) break;
     series.add(strip.time(), 1e3 * strip.front());
   }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Zlib
 #include "command/render/ExportCommand.h"
 
+#include "command/cli/CommonOptions.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/cli/StagedOutput.h"
-#include "command/render/RecordRun.h"
+#include "command/render/SampleRun.h"
+#include "command/scene/SceneOptions.h"
 
 #include "command/pictures/HtmlPage.h"
 #include "command/pictures/ObjFile.h"
@@ -16,18 +18,28 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace command {
 namespace {
 
 namespace fs = std::filesystem;
 
+struct ExportOptions : SceneOptions {
+  std::string format;
+  std::string out;  ///< folder or file, as the format has it
+  double framesPerSecond = 30;
+  std::string json;
+};
+
 struct Format {
   std::string name;
   std::string explanation;
   StagedOutput::Kind kind;
   std::string suffix;  ///< of a file
-  std::function<void(const pictures::Recording&, const std::string&)> write;
+  std::function<void(const pictures::FrameSequence&, const std::string&)> write;
 };
 
 const std::vector<Format>& formats() {
@@ -40,6 +52,18 @@ const std::vector<Format>& formats() {
       {"vtk", "a folder of VTK PolyData with run.pvd, for ParaView", Kind::folder, "", pictures::writeVtkSeries},
       {"html", "a page .html to look at the run in a browser", Kind::file, ".html", pictures::writeHtml}};
   return all;
+}
+
+std::vector<std::string> exportFormats() {
+  std::vector<std::string> names;
+  for (const Format& format : formats()) names.push_back(format.name);
+  return names;
+}
+
+std::string exportFormatsExplained() {
+  std::string text;
+  for (const Format& format : formats()) text += (text.empty() ? "" : "; ") + format.name + ": " + format.explanation;
+  return text;
 }
 
 const Format& formatOf(const std::string& name) {
@@ -67,65 +91,69 @@ nlohmann::ordered_json filesIn(const fs::path& out) {
   return list;
 }
 
-nlohmann::ordered_json jsonOf(const Scene& scene, const ExportOptions& options, const pictures::Recording& recording) {
+nlohmann::ordered_json jsonOf(const Scene& scene, const ExportOptions& options, const pictures::FrameSequence& sequence) {
   nlohmann::ordered_json json;
   json["scene"] = scene.name;
   json["precision"] = nameOf(ownPrecision);
   json["format"] = options.format;
-  json["frames"] = recording.frames.size();
+  json["frames"] = sequence.frames.size();
   json["fps"] = options.framesPerSecond;
-  json["end_s"] = recording.frames.back().time;
+  json["end_s"] = sequence.frames.back().time;
   json["cloths"] = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < recording.cloths.size(); ++i) {
-    json["cloths"].push_back({{"name", recording.cloths[i].name},
-                              {"nodes", recording.frames.back().cloths[i].positions.size()},
-                              {"triangles", recording.cloths[i].triangles.size()}});
+  for (std::size_t i = 0; i < sequence.cloths.size(); ++i) {
+    json["cloths"].push_back({{"name", sequence.cloths[i].name},
+                              {"nodes", sequence.frames.back().cloths[i].positions.size()},
+                              {"triangles", sequence.cloths[i].triangles.size()}});
   }
   json["files"] = filesIn(options.out);
   return json;
 }
 
-void write(const Format& format, const pictures::Recording& recording, const std::string& option,
+void write(const Format& format, const pictures::FrameSequence& sequence, const std::string& option,
            StagedOutput& output) {
   try {
-    format.write(recording, output.path());
+    format.write(sequence, output.path());
   } catch (const std::runtime_error& error) {
     throw RunError(option + ": " + error.what());
   }
   output.commit();
 }
 
-}  // namespace
-
-std::vector<std::string> exportFormats() {
-  std::vector<std::string> names;
-  for (const Format& format : formats()) names.push_back(format.name);
-  return names;
-}
-
-std::string exportFormatsExplained() {
-  std::string text;
-  for (const Format& format : formats()) text += (text.empty() ? "" : "; ") + format.name + ": " + format.explanation;
-  return text;
-}
-
-void exportScene(const ExportOptions& options, char** arguments) {
+void exportScene(const ExportOptions& options) {
   requireFramesPerSecond(options.framesPerSecond);
   const Format& format = formatOf(options.format);
   const std::string option = "wetcloth: --out = \"" + onOneLine(options.out) + "\"";
   if (format.kind == StagedOutput::Kind::file && fs::path(options.out).extension() != format.suffix) {
     throw InputError(option + ": must end in " + format.suffix + " for --format " + format.name);
   }
-  const Scene scene = readScene(options, arguments);
+  const Scene scene = prepareScene(options).scene;
   JsonOutput json(options.json);
   StagedOutput output(option, options.out, format.kind);
-  const pictures::Recording recording = recordRun(scene, options.framesPerSecond);
-  write(format, recording, option, output);
-  const nlohmann::ordered_json result = jsonOf(scene, options, recording);
+  const pictures::FrameSequence sequence = sampleRun(scene, options.framesPerSecond);
+  write(format, sequence, option, output);
+  const nlohmann::ordered_json result = jsonOf(scene, options, sequence);
   json.write(result);
   if (json.ownsStandardOutput()) return;
-  std::printf("%zu frames of %s, %g per second: %s\n", recording.frames.size(), scene.name.c_str(),
+  std::printf("%zu frames of %s, %g per second: %s\n", sequence.frames.size(), scene.name.c_str(),
               options.framesPerSecond, options.out.c_str());
+}
+
+}  // namespace
+
+Command addExportCommand(CLI::App& line) {
+  CLI::App* const app = line.add_subcommand("export", "Run a scene and write it for other programs");
+  const auto options = std::make_shared<ExportOptions>();
+  addSceneFile(*app, *options);
+  app->add_option("--format", options->format, exportFormatsExplained())
+      ->check(oneOf("--format", exportFormats()))
+      ->required();
+  app->add_option("--out", options->out, "File, which is replaced, or folder, which must be new or empty")->required();
+  app->add_option("--fps", options->framesPerSecond, "Frames per simulated second")->capture_default_str();
+  addDuration(*app, *options);
+  addQuality(*app, *options);
+  addScenePrecision(*app, *options);
+  addJson(*app, options->json, "what was written");
+  return {app, [options] { exportScene(*options); }, [options] { return wishOf(*options); }};
 }
 
 }  // namespace command

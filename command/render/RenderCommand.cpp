@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Zlib
 #include "command/render/RenderCommand.h"
 
+#include "command/cli/CommonOptions.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/cli/NearestWord.h"
 #include "command/cli/StagedOutput.h"
 #include "command/render/DrawnPictures.h"
 #include "command/render/PictureSize.h"
-#include "command/render/RecordRun.h"
+#include "command/render/SampleRun.h"
 #include "command/render/RenderJob.h"
 #include "command/scene/DryScene.h"
+#include "command/scene/SceneOptions.h"
 
 #include "command/pictures/HtmlPage.h"
 #include "command/pictures/Unavailable.h"
@@ -18,18 +20,36 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace command {
 namespace {
 
 using pictures::Colouring;
 
-const std::vector<std::pair<std::string, Colouring>>& colourings() {
-  static const std::vector<std::pair<std::string, Colouring>> all{{"fabric", Colouring::fabric},
-                                                                  {"saturation", Colouring::saturation},
-                                                                  {"stretch", Colouring::stretch},
-                                                                  {"speed", Colouring::speed}};
+struct RenderOptions : SceneOptions {
+  std::string out;   ///< file; its suffix chooses what is made
+  std::string size;  ///< WIDTHxHEIGHT [pixels]; empty: as fits what is made
+  std::optional<double> framesPerSecond;
+  double speed = 1;                   ///< simulated seconds per second of film
+  std::vector<double> times;          ///< of a picture [s]; none: the end
+  std::vector<double> view;           ///< direction that the camera looks along; none: as the scene says
+  double orbit = 0;                   ///< turn of the camera about the upright [degrees]
+  std::optional<double> fieldOfView;  ///< vertical [degrees]
+  std::string colouring = "fabric";
+  bool compare = false;  ///< plain Bullet, dry and wet side by side
+  std::string json;
+};
+
+const NamedValues<Colouring>& colourings() {
+  static const NamedValues<Colouring> all{{"fabric", Colouring::fabric},
+                                          {"saturation", Colouring::saturation},
+                                          {"stretch", Colouring::stretch},
+                                          {"speed", Colouring::speed}};
   return all;
 }
 
@@ -47,7 +67,7 @@ struct Product {
 void requireNothing(int /*width*/, int /*height*/) {}
 
 RenderResult writePage(const RenderJob& job) {
-  pictures::writeHtml(job.panels.back().recording, job.path);
+  pictures::writeHtml(job.panels.back().sequence, job.path);
   return {};
 }
 
@@ -58,6 +78,12 @@ const std::vector<Product>& products() {
                                         {".gif", true, 25, "640x360", false, requireFilm, drawFilm},
                                         {".html", true, 30, "1280x720", false, requireNothing, writePage}};
   return all;
+}
+
+std::vector<std::string> renderSuffixes() {
+  std::vector<std::string> suffixes;
+  for (const Product& product : products()) suffixes.push_back(product.suffix);
+  return suffixes;
 }
 
 std::string nameOfOut(const RenderOptions& options) { return "wetcloth: --out = \"" + onOneLine(options.out) + "\""; }
@@ -127,13 +153,13 @@ void aimCamera(const RenderOptions& options, Scene& scene) {
   if (options.fieldOfView) scene.camera.fieldOfView = *options.fieldOfView;
 }
 
-std::vector<Panel> recordPanels(const RenderOptions& options, const Scene& scene, const std::vector<double>& times) {
+std::vector<Panel> samplePanels(const RenderOptions& options, const Scene& scene, const std::vector<double>& times) {
   std::vector<Panel> panels;
   if (options.compare) {
-    panels.push_back({"plain Bullet", recordRun(scene, times, SceneWorld::Kind::plainBullet)});
-    panels.push_back({"dry", recordRun(dryScene(scene), times)});
+    panels.push_back({"plain Bullet", sampleRun(scene, times, SceneWorld::Kind::plainBullet)});
+    panels.push_back({"dry", sampleRun(dryScene(scene), times)});
   }
-  panels.push_back({options.compare ? "wet" : "", recordRun(scene, times)});
+  panels.push_back({options.compare ? "wet" : "", sampleRun(scene, times)});
   return panels;
 }
 
@@ -150,12 +176,12 @@ auto atOut(const RenderOptions& options, const Action& action) {
 }
 
 double speedOfDrawing(const RenderJob& job, const RenderResult& result) {
-  return static_cast<double>(job.panels.front().recording.frames.size()) / std::max(1e-9, result.secondsOfDrawing);
+  return static_cast<double>(job.panels.front().sequence.frames.size()) / std::max(1e-9, result.secondsOfDrawing);
 }
 
 nlohmann::ordered_json jsonOf(const RenderOptions& options, const Scene& scene, const RenderJob& job,
                               const RenderResult& result) {
-  const std::vector<pictures::Frame>& frames = job.panels.back().recording.frames;
+  const std::vector<pictures::Frame>& frames = job.panels.back().sequence.frames;
   nlohmann::ordered_json json{{"scene", scene.name},         {"precision", nameOf(ownPrecision)},
                               {"file", options.out},         {"bytes", std::filesystem::file_size(options.out)},
                               {"frames", frames.size()},     {"first_s", frames.front().time},
@@ -170,7 +196,7 @@ nlohmann::ordered_json jsonOf(const RenderOptions& options, const Scene& scene, 
 }
 
 void printSummary(const RenderOptions& options, const RenderJob& job, const RenderResult& result) {
-  const std::size_t count = job.panels.front().recording.frames.size();
+  const std::size_t count = job.panels.front().sequence.frames.size();
   const char* const pictures = count == 1 ? "picture" : "pictures";
   if (result.renderer.empty()) {
     std::printf("%s: %zu %s\n", options.out.c_str(), count, pictures);
@@ -180,25 +206,11 @@ void printSummary(const RenderOptions& options, const RenderJob& job, const Rend
   std::printf("drawn at %.1f pictures a second by %s\n", speedOfDrawing(job, result), result.renderer.c_str());
 }
 
-}  // namespace
-
-std::vector<std::string> colouringNames() {
-  std::vector<std::string> names;
-  for (const auto& [name, colouring] : colourings()) names.push_back(name);
-  return names;
-}
-
-std::vector<std::string> renderSuffixes() {
-  std::vector<std::string> suffixes;
-  for (const Product& product : products()) suffixes.push_back(product.suffix);
-  return suffixes;
-}
-
-void renderScene(const RenderOptions& options, char** arguments) {
+void renderScene(const RenderOptions& options) {
   const Product& product = productOf(options);
   requireOptions(options, product);
   const PictureSize size = readSize(options.size.empty() ? product.size : options.size, product.hasEvenSize);
-  Scene scene = readScene(options, arguments);
+  Scene scene = prepareScene(options).scene;
   requireTimes(options, scene);
   aimCamera(options, scene);
   JsonOutput json(options.json);
@@ -206,11 +218,48 @@ void renderScene(const RenderOptions& options, char** arguments) {
   atOut(options, [&] { product.require(size.width, size.height); });
   RenderJob job{output.path(), {}, size.width, size.height, 0, valueOf(colourings(), options.colouring)};
   if (product.isFilm) job.framesPerSecond = options.framesPerSecond.value_or(product.framesPerSecond);
-  job.panels = recordPanels(options, scene, timesOf(options, product, scene));
+  job.panels = samplePanels(options, scene, timesOf(options, product, scene));
   const RenderResult result = atOut(options, [&] { return product.write(job); });
   output.commit();
   json.write(jsonOf(options, scene, job, result));
   if (!json.ownsStandardOutput()) printSummary(options, job, result);
+}
+
+void addCameraOptions(CLI::App& app, RenderOptions& options) {
+  app.add_option("--view", options.view, "X,Y,Z: what the camera looks along, instead of the scene's own direction")
+      ->delimiter(',')
+      ->expected(3);
+  app.add_option("--orbit", options.orbit, "Turns the camera about the upright [degrees]")->capture_default_str();
+  app.add_option("--field-of-view", options.fieldOfView, "Of the camera, vertical [degrees]");
+}
+
+}  // namespace
+
+Command addRenderCommand(CLI::App& line) {
+  CLI::App* const app =
+      line.add_subcommand("render", "Run a scene and draw pictures, a film or a page for a browser, without a display");
+  const auto options = std::make_shared<RenderOptions>();
+  addSceneFile(*app, *options);
+  app->add_option("--out", options->out, "File, which is replaced; its suffix chooses: " + joined(renderSuffixes()))
+      ->required();
+  app->add_option("--size", options->size,
+                  "WIDTHxHEIGHT of the film or of each picture [pixels]; default 1280x720, for a .gif 640x360");
+  app->add_option("--times", options->times, "Of a .png: when [s]; several give a strip; default is the end")
+      ->delimiter(',');
+  app->add_option("--fps", options->framesPerSecond,
+                  "Of a film or page: pictures per second; default 30, for a .gif 25");
+  app->add_option("--speed", options->speed, "Of a film: simulated seconds per second of film; 0.25 is slow motion")
+      ->capture_default_str();
+  addCameraOptions(*app, *options);
+  app->add_option("--colouring", options->colouring, "What the colours of a cloth show; all but fabric with a bar")
+      ->check(oneOf("--colouring", namesOf(colourings())))
+      ->capture_default_str();
+  app->add_flag("--compare", options->compare, "Plain Bullet, the dry scene and the wet one side by side");
+  addDuration(*app, *options);
+  addQuality(*app, *options);
+  addScenePrecision(*app, *options);
+  addJson(*app, options->json, "what was drawn");
+  return {app, [options] { renderScene(*options); }, [options] { return wishOf(*options); }};
 }
 
 }  // namespace command

@@ -32,9 +32,9 @@ std::string hashOf(const std::string& bytes) {
 }
 
 // Of the file's text, and of the meshes that it names.
-std::string hashOf(const Scene& scene, const std::string& file) {
+std::string hashOf(const Scene& scene) {
   wetcloth::StateHash hash;
-  const std::string text = readTextFile(file);
+  const std::string text = readTextFile(scene.file);
   hash.add(text.data(), text.size());
   for (const ClothScene& cloth : scene.cloths) {
     const auto* mesh = std::get_if<TriangleMesh>(&cloth.shape);
@@ -75,13 +75,13 @@ std::string contentOf(const std::string& file) {
 
 }  // namespace
 
-nlohmann::ordered_json runIdentity(const RunOptions& options, const Scene& scene, int steps) {
+nlohmann::ordered_json runIdentity(const Scene& scene, int steps) {
   return {{"precision", nameOf(ownPrecision)},
           {"quality", qualityOf(scene)},
           {"substeps", scene.substeps},
           {"iterations", scene.iterations},
           {"steps", steps},
-          {"scene", hashOf(scene, options.scene)}};
+          {"scene", hashOf(scene)}};
 }
 
 void requireCheckpointPlace(const std::string& path) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "command/run/RunCommand.h"
+#include "command/scene/Scene.h"
 
 #include <nlohmann/json.hpp>
 
@@ -18,7 +18,7 @@ struct Checkpoint {
 
 /// What tells one run from another, as a checkpoint names it.
 /// @param steps  of the whole run
-nlohmann::ordered_json runIdentity(const RunOptions& options, const Scene& scene, int steps);
+nlohmann::ordered_json runIdentity(const Scene& scene, int steps);
 
 /// Throws InputError when no file can be written there.
 void requireCheckpointPlace(const std::string& path);

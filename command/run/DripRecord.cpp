@@ -16,14 +16,12 @@ void DripRecord::note(const SceneWorld& world) {
   m_drops = 0;
   m_mass = m_pending = 0;
   for (const wetcloth::WetCloth* cloth : world.cloths()) {
-    for (const auto& effect : cloth->effects()) {
-      const auto* dripping = dynamic_cast<const wetcloth::Dripping*>(effect.get());
-      if (dripping == nullptr) continue;
+    cloth->forEach<wetcloth::Dripping>([&](const wetcloth::Dripping& dripping) {
       m_isOn = true;
-      m_drops += dripping->drops();
-      m_mass += dripping->drippedMass();
-      m_pending += dripping->pendingMass();
-    }
+      m_drops += dripping.drops();
+      m_mass += dripping.drippedMass();
+      m_pending += dripping.pendingMass();
+    });
   }
   const std::size_t tenths = m_massByTenth.size();
   m_massByTenth[static_cast<std::size_t>(m_noted) * tenths / static_cast<std::size_t>(m_steps)] += m_mass - before;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/run/RunCommand.h"
 
+#include "command/cli/CommonOptions.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/cli/Progress.h"
@@ -9,7 +10,7 @@
 #include "command/run/FiniteState.h"
 #include "command/run/FrameWriter.h"
 #include "command/run/RunReport.h"
-#include "command/scene/Quality.h"
+#include "command/scene/SceneOptions.h"
 #include "command/scene/SceneWorld.h"
 
 #include <algorithm>
@@ -19,9 +20,19 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <string>
 
 namespace command {
 namespace {
+
+struct RunOptions : SceneOptions {
+  std::string frames;  ///< directory; empty: no pictures
+  int frameCount = 12;
+  std::string json;
+  std::string checkpoint;  ///< file; empty: none
+  int every = 100;         ///< steps of the scene from one checkpoint to the next
+  std::string resume;      ///< file; empty: from the start
+};
 
 double secondsOf(SceneWorld& world) {
   const auto start = std::chrono::steady_clock::now();
@@ -93,26 +104,6 @@ class Run {
   double m_plainSeconds = 0;
 };
 
-/// None when the scene decides by itself. Throws InputError when nothing that was measured is within the budget.
-std::optional<SteppingChoice> chooseStepping(const RunOptions& options, Scene& scene) {
-  if (!options.errorBudget) {
-    if (scene.quality.empty()) return std::nullopt;
-    return steppingWithin(scene, allowedError(valueOf(qualityNames(), scene.quality)));
-  }
-  const SteppingChoice choice = steppingWithin(scene, *options.errorBudget);
-  if (!(choice.largestError() <= *options.errorBudget)) {
-    char text[240];
-    std::snprintf(text, sizeof text,
-                  "wetcloth: --error-budget = %g: must be at least %.2g for this scene, which %s of %s allows",
-                  *options.errorBudget, choice.largestError(), choice.worst().study.study.c_str(),
-                  choice.worst().study.method.c_str());
-    throw InputError(text);
-  }
-  apply(choice, scene);
-  scene.quality = "error budget";
-  return choice;
-}
-
 void resume(Run& run, const std::string& path, const nlohmann::ordered_json& identity) {
   const Checkpoint checkpoint = readCheckpoint(path, identity);
   try {
@@ -141,26 +132,71 @@ void stepToEnd(Run& run, int steps, const RunOptions& options, const nlohmann::o
   frames.write(run.world());
 }
 
-}  // namespace
+void requireOptions(const RunOptions& options) {
+  if (options.frameCount < 1 || options.frameCount > 10000) {
+    throw InputError("wetcloth: --frame-count = " + std::to_string(options.frameCount) + ": must be 1 to 10000");
+  }
+  if (options.errorBudget && !options.quality.empty()) {
+    throw InputError("wetcloth: --error-budget and --quality: give one of the two");
+  }
+  if (options.every < 1) {
+    throw InputError("wetcloth: --every = " + std::to_string(options.every) + ": must be at least 1");
+  }
+}
 
-void runScene(const RunOptions& options, char** arguments) {
-  Scene scene = readScene(options, arguments);
-  const std::optional<SteppingChoice> stepping = chooseStepping(options, scene);
+void runScene(const RunOptions& options) {
+  requireOptions(options);
+  const PreparedScene prepared = prepareScene(options);
+  const Scene& scene = prepared.scene;
   JsonOutput output(options.json);
   const int steps = std::max(1, static_cast<int>(std::lround(scene.duration / scene.step)));
   FrameWriter frames(options.frames, options.frameCount, steps);
   if (!options.checkpoint.empty()) requireCheckpointPlace(options.checkpoint);
-  const nlohmann::ordered_json identity = runIdentity(options, scene, steps);
+  const nlohmann::ordered_json identity = runIdentity(scene, steps);
   Run run(scene, steps);
   if (!options.resume.empty()) resume(run, options.resume, identity);
   stepToEnd(run, steps, options, identity, frames);
   run.finish();
   RunReport report(run.world(), run.times(), run.drips());
-  if (stepping) report.explain(*stepping);
+  if (prepared.stepping) report.explain(*prepared.stepping);
   output.write(report.json());
   if (output.ownsStandardOutput()) return;
   std::fputs(report.summary().c_str(), stdout);
   if (frames.isOn()) std::printf("%-15s%d pictures in %s\n", "frames", frames.count(), options.frames.c_str());
+}
+
+void addCheckpointOptions(CLI::App& app, RunOptions& options, CLI::Option* frames) {
+  CLI::Option* const checkpoint = app.add_option(
+      "--checkpoint", options.checkpoint, "File that is replaced now and then by the run as it is, for --resume");
+  app.add_option("--every", options.every, "Steps of the scene from one checkpoint to the next")
+      ->capture_default_str()
+      ->needs(checkpoint);
+  app.add_option("--resume", options.resume, "Checkpoint to go on from; the run ends as if it had not been interrupted")
+      ->excludes(frames);
+}
+
+}  // namespace
+
+Command addRunCommand(CLI::App& line) {
+  CLI::App* const app = line.add_subcommand("run", "Run a scene");
+  const auto options = std::make_shared<RunOptions>();
+  addSceneFile(*app, *options);
+  CLI::Option* const frames =
+      app->add_option("--frames", options->frames, "Directory for pictures of the run, frame_0000.svg and so on");
+  app->add_option("--frame-count", options->frameCount, "How many pictures, evenly spaced")
+      ->capture_default_str()
+      ->needs(frames);
+  addJson(*app, options->json);
+  addQuality(*app, *options,
+             "Substeps and iterations, instead of the scene's own: the cheapest that were measured within 10 % "
+             "(draft), 3 % (realtime) and 1 % (accurate), and the most accurate ones (reference); "
+             "see docs/accuracy.md");
+  app->add_option("--error-budget", options->errorBudget,
+                  "The same for an error of your own, e.g. 1e-2, in all that the scene's effects were measured by");
+  addCheckpointOptions(*app, *options, frames);
+  addDuration(*app, *options);
+  addScenePrecision(*app, *options);
+  return {app, [options] { runScene(*options); }, [options] { return wishOf(*options); }};
 }
 
 }  // namespace command

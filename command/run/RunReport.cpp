@@ -74,9 +74,9 @@ void RunReport::measureCloth(const wetcloth::WetCloth& cloth) {
   m_ledger.dripped += ledger.dripped;
   m_ledger.held += ledger.held;
   m_ledger.runOff += ledger.runOff;
-  for (const auto& effect : cloth.effects()) {
-    if (std::find(m_effects.begin(), m_effects.end(), effect->name()) == m_effects.end()) {
-      m_effects.emplace_back(effect->name());
+  for (const wetcloth::Effect& effect : cloth.effects()) {
+    if (std::find(m_effects.begin(), m_effects.end(), effect.name()) == m_effects.end()) {
+      m_effects.emplace_back(effect.name());
     }
   }
 }

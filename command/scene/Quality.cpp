@@ -5,11 +5,11 @@ namespace command {
 
 std::string qualityOf(const Scene& scene) { return scene.quality.empty() ? "scene" : scene.quality; }
 
-const std::vector<std::pair<std::string, Quality>>& qualityNames() {
-  static const std::vector<std::pair<std::string, Quality>> names{{"draft", Quality::draft},
-                                                                  {"realtime", Quality::realtime},
-                                                                  {"accurate", Quality::accurate},
-                                                                  {"reference", Quality::reference}};
+const NamedValues<Quality>& qualityNames() {
+  static const NamedValues<Quality> names{{"draft", Quality::draft},
+                                          {"realtime", Quality::realtime},
+                                          {"accurate", Quality::accurate},
+                                          {"reference", Quality::reference}};
   return names;
 }
 

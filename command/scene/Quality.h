@@ -4,8 +4,6 @@
 #include "command/scene/Scene.h"
 
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace command {
 
@@ -16,7 +14,7 @@ std::string qualityOf(const Scene& scene);
 enum class Quality { draft, realtime, accurate, reference };
 
 /// "draft" and so on, from the coarsest.
-const std::vector<std::pair<std::string, Quality>>& qualityNames();
+const NamedValues<Quality>& qualityNames();
 
 /// The error that a quality allows [-]: 10 %, 3 %, 1 %; of `reference` 0, which nothing reaches: the most accurate
 /// stepping that was measured.

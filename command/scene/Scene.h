@@ -1,42 +1,23 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "command/cli/NamedValues.h"
+#include "command/cli/Precision.h"
+
 #include "bullet_wetcloth/bullet_wetcloth.h"
 
 #include <array>
 #include <functional>
 #include <optional>
-#include <stdexcept>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
 namespace command {
 
 enum class WorldKind { softRigid, softMultiBody, deformable };
-enum class Precision { float32, float64 };
-
-/// What this program's btScalar is.
-#ifdef BT_USE_DOUBLE_PRECISION
-inline constexpr Precision ownPrecision = Precision::float64;
-#else
-inline constexpr Precision ownPrecision = Precision::float32;
-#endif
-
+const NamedValues<WorldKind>& worldNames();
 std::string nameOf(WorldKind world);
-std::string nameOf(Precision precision);
-const std::vector<std::pair<std::string, WorldKind>>& worldNames();
-const std::vector<std::pair<std::string, Precision>>& precisionNames();
-
-/// The value of a name that is known to be one of these.
-template <class Value>
-Value valueOf(const std::vector<std::pair<std::string, Value>>& names, const std::string& wanted) {
-  for (const auto& [name, value] : names) {
-    if (name == wanted) return value;
-  }
-  throw std::logic_error("the name " + wanted + " was not checked");
-}
 
 struct TriangleMesh {
   std::vector<btVector3> vertices;  ///< [m]

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "command/scene/SceneOptions.h"
 
+#include "command/cli/CommonOptions.h"
 #include "command/cli/Errors.h"
-#include "command/cli/Sibling.h"
-#include "command/scene/MeasuredFront.h"
 #include "command/scene/Quality.h"
 #include "command/scene/SceneReader.h"
 
@@ -19,20 +18,59 @@ void requireDuration(double duration) {
   throw InputError("wetcloth: --duration = " + std::string(value) + ": must be in (0, 3600] s");
 }
 
+/// Throws InputError when nothing that was measured is within the budget.
+SteppingChoice steppingWithinBudget(const Scene& scene, double budget) {
+  const SteppingChoice choice = steppingWithin(scene, budget);
+  if (choice.largestError() <= budget) return choice;
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "wetcloth: --error-budget = %g: must be at least %.2g for this scene, which %s of %s allows", budget,
+                choice.largestError(), choice.worst().study.study.c_str(), choice.worst().study.method.c_str());
+  throw InputError(text);
+}
+
+/// None when the scene decides by itself.
+std::optional<SteppingChoice> chooseStepping(const SceneOptions& options, Scene& scene) {
+  std::optional<SteppingChoice> choice;
+  if (options.errorBudget) {
+    choice = steppingWithinBudget(scene, *options.errorBudget);
+    scene.quality = "error budget";
+  } else if (!scene.quality.empty()) {
+    choice = steppingWithin(scene, allowedError(valueOf(qualityNames(), scene.quality)));
+  }
+  if (choice) apply(*choice, scene);
+  return choice;
+}
+
 }  // namespace
 
-Scene readScene(const SceneOptions& options, char** arguments) {
+void addSceneFile(CLI::App& app, SceneOptions& options) {
+  app.add_option("scene", options.scene, "Scene file (JSON, see docs/scenes.md)")->required();
+}
+
+void addQuality(CLI::App& app, SceneOptions& options, const std::string& explanation) {
+  app.add_option("--quality", options.quality, explanation)->check(oneOf("--quality", namesOf(qualityNames())));
+}
+
+void addDuration(CLI::App& app, SceneOptions& options) {
+  app.add_option("--duration", options.duration, "Simulated time [s], instead of the scene's own");
+}
+
+void addScenePrecision(CLI::App& app, SceneOptions& options) {
+  addPrecision(app, options.precision, "Instead of the scene's own");
+}
+
+PrecisionWish wishOf(const SceneOptions& options) {
+  return options.precision.empty() ? readPrecision(options.scene) : wishOf(options.precision);
+}
+
+PreparedScene prepareScene(const SceneOptions& options) {
   if (options.duration) requireDuration(*options.duration);
   Scene scene = readScene(options.scene);
-  if (options.precision.empty()) {
-    continueInPrecision(scene.precision, scene.file + ": /precision", arguments);
-  } else {
-    continueInPrecision(valueOf(precisionNames(), options.precision), "wetcloth: --precision", arguments);
-  }
   if (options.duration) scene.duration = *options.duration;
   if (!options.quality.empty()) scene.quality = options.quality;
-  if (!scene.quality.empty()) apply(steppingWithin(scene, allowedError(valueOf(qualityNames(), scene.quality))), scene);
-  return scene;
+  std::optional<SteppingChoice> stepping = chooseStepping(options, scene);
+  return {std::move(scene), std::move(stepping)};
 }
 
 }  // namespace command

@@ -257,9 +257,14 @@ CameraScene readCamera(JsonCursor cursor) {
   return camera;
 }
 
+Precision precisionAt(const JsonCursor& scene) {
+  const auto precision = scene.find("precision");
+  return precision ? precision->choice(precisionNames()) : Scene().precision;
+}
+
 void readWorld(const JsonCursor& cursor, Scene& scene) {
   scene.world = cursor.at("world").choice(worldNames());
-  if (const auto precision = cursor.find("precision")) scene.precision = precision->choice(precisionNames());
+  scene.precision = precisionAt(cursor);
   readVector(cursor, "gravity_m_s2", scene.gravity);
   readNumber(cursor, "step_s", Range{0, 1, false, "in (0, 1]"}, scene.step);
   if (const auto substeps = cursor.find("substeps")) scene.substeps = substeps->integer(1, 1000);
@@ -278,6 +283,13 @@ void readWorld(const JsonCursor& cursor, Scene& scene) {
 }
 
 }  // namespace
+
+PrecisionWish readPrecision(const std::string& file) {
+  const Json json = loadJson(file);
+  JsonCursor cursor(json, file);
+  cursor.expectObject(keys::scene);
+  return {precisionAt(cursor), file + ": /precision"};
+}
 
 Scene readScene(const std::string& file) {
   const Json json = loadJson(file);

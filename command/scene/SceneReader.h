@@ -11,4 +11,7 @@ namespace command {
 /// pointer, the value and what is allowed.
 Scene readScene(const std::string& file);
 
+/// The scene's precision, and where it says so; nothing else of it is read. Throws InputError.
+PrecisionWish readPrecision(const std::string& file);
+
 }  // namespace command

@@ -45,8 +45,8 @@ constexpr double planeHalfExtent = 50;
 
 }  // namespace
 
-SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_world(settingsOf(scene)), m_drops(scene) {
-  if (kind == Kind::wet) m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_world.world());
+SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_drops(scene), m_world(settingsOf(scene)) {
+  if (kind == Kind::wet) m_wetWorld = &m_world.wet();
   if (scene.water) addWater(*scene.water);
   for (const Collider& collider : scene.colliders) addCollider(collider);
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
@@ -83,12 +83,11 @@ void SceneWorld::addWater(const WaterScene& water) {
 
 void SceneWorld::addEffects(std::size_t index, wetcloth::WetCloth& wet) {
   for (const EffectScene& effect : m_scene.cloths[index].effects) {
-    atPointer(m_scene, "/cloths/" + std::to_string(index) + "/effects/" + effect.key, [&] {
-      wetcloth::Effect& added = effect.addTo(wet, m_colliders);
-      if (auto* audit = dynamic_cast<wetcloth::CollisionAudit*>(&added)) m_audits.push_back(audit);
-      if (auto* dripping = dynamic_cast<wetcloth::Dripping*>(&added)) m_drops.follow(*dripping);
-    });
+    atPointer(m_scene, "/cloths/" + std::to_string(index) + "/effects/" + effect.key,
+              [&] { effect.addTo(wet, m_colliders); });
   }
+  wet.forEach<wetcloth::CollisionAudit>([&](wetcloth::CollisionAudit& audit) { m_audits.push_back(&audit); });
+  wet.forEach<wetcloth::Dripping>([&](wetcloth::Dripping& dripping) { m_drops.follow(dripping); });
 }
 
 void SceneWorld::addCollider(const Collider& collider) {

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Zlib
 #include "command/scene/ValidateCommand.h"
 
+#include "command/cli/CommonOptions.h"
 #include "command/scene/SceneReader.h"
 #include "command/scene/SceneWorld.h"
 
 #include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace command {
+namespace {
 
 void validateScenes(const std::vector<std::string>& files) {
   const std::string schemaEnding = ".schema.json";
@@ -21,6 +26,15 @@ void validateScenes(const std::vector<std::string>& files) {
     const SceneWorld world(scene);  // what only the library knows to refuse, it refuses here
     std::printf("%s: ok\n", file.c_str());
   }
+}
+
+}  // namespace
+
+Command addValidateCommand(CLI::App& line) {
+  CLI::App* const app = line.add_subcommand("validate", "Check scenes without running them");
+  const auto files = std::make_shared<std::vector<std::string>>();
+  app->add_option("scenes", *files, "Scene files")->required();
+  return {app, [files] { validateScenes(*files); }};
 }
 
 }  // namespace command

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include <string>
-#include <vector>
+#include "command/cli/Command.h"
 
 namespace command {
 
-/// `wetcloth validate`: loads and builds each scene without running it, and prints "FILE: ok". Throws InputError for
-/// the first one that is wrong.
-void validateScenes(const std::vector<std::string>& files);
+/// `wetcloth validate`: checks scenes without running them.
+Command addValidateCommand(CLI::App& line);
 
 }  // namespace command

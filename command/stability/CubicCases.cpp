@@ -2,7 +2,7 @@
 #include "command/stability/Cases.h"
 
 #include <bullet_wetcloth/collision/ContinuousCheck.h>
-#include <bullet_wetcloth/collision/TextbookCheck.h>
+#include "command/ccd/TextbookCheck.h"
 
 #include <cmath>
 #include <functional>
@@ -181,7 +181,7 @@ void check(const ContinuousCheck& answer, const Known& known, CaseMeter& meter) 
 }
 
 void checkTextbook(const Known& known, CaseMeter& meter) {
-  const Contact contact = wetcloth::collision::textbookCheck(known.pair, rounded<btScalar>(known.query), btScalar(0));
+  const Contact contact = command::comparison::textbookCheck(known.pair, rounded<btScalar>(known.query), btScalar(0));
   if (known.meets) meter.compare("missed contacts", contact.found ? 0 : 1, 0);
   if (!known.meets) meter.compare("false alarms", contact.found ? 1 : 0, 0);
 }
@@ -192,12 +192,12 @@ HardCase cubic(std::string name, std::string about, std::function<std::vector<Kn
   hardCase.group = "cubics";
   hardCase.about = std::move(about);
   hardCase.worlds = {World::none};
-  hardCase.obviousWay = "the textbook's cubic";
+  hardCase.naiveMethod = "the textbook's cubic";
   hardCase.compute = [make = std::move(make)](Way way, CaseMeter& meter) {
     std::vector<ContinuousCheck> checks{ContinuousCheck(Tier::fast), ContinuousCheck(Tier::conservative)};
     if (ContinuousCheck::hasExact()) checks.emplace_back(Tier::exact);
     for (const Known& known : make()) {
-      if (way == Way::obvious) checkTextbook(known, meter);
+      if (way == Way::naive) checkTextbook(known, meter);
       if (way != Way::ours) continue;
       for (const ContinuousCheck& answer : checks) check(answer, known, meter);
     }

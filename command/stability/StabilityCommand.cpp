@@ -5,19 +5,33 @@
 #include "command/stability/StabilityReport.h"
 #include "command/stability/StabilityRun.h"
 #include "command/stability/StabilityTable.h"
+#include "command/stability/World.h"
 
+#include "command/cli/CommonOptions.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/cli/Progress.h"
-#include "command/cli/Sibling.h"
-#include "command/scene/Scene.h"
 
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace stability {
 namespace {
+
+struct StabilityOptions {
+  std::string name;       ///< of a case; empty: all
+  std::string group;      ///< empty: all
+  std::string world;      ///< empty: all
+  std::string step;       ///< "1/240" or "0.004" [s]; empty: all of the table
+  std::string precision;  ///< empty: this program's
+  bool isQuick = false;
+  std::string json;
+  std::string markdown;
+};
 
 constexpr double smallestStep = 1e-4;
 constexpr double largestStep = 1;
@@ -52,17 +66,11 @@ Selection selectionOf(const StabilityOptions& options) {
   return selection;
 }
 
-}  // namespace
-
-void tryHardCases(const StabilityOptions& options, char** arguments) {
+void tryHardCases(const StabilityOptions& options) {
   const Selection selection = selectionOf(options);
   const std::vector<Combination> combinations = combinationsOf(selection);
   if (combinations.empty()) {
     throw command::InputError("wetcloth: no case is left by --case, --group, --world and --quick together");
-  }
-  if (!options.precision.empty()) {
-    command::continueInPrecision(command::valueOf(command::precisionNames(), options.precision),
-                                 "wetcloth: --precision", arguments);
   }
   command::JsonOutput output(options.json);
   std::optional<MarkedSection> section;
@@ -81,6 +89,28 @@ void tryHardCases(const StabilityOptions& options, char** arguments) {
   if (report.count(CaseResult::Verdict::fails) > 0) {
     throw command::RunError("wetcloth: a bound does not hold, and plain Bullet holds it: " + report.failing());
   }
+}
+
+}  // namespace
+
+command::Command addStabilityCommand(CLI::App& line) {
+  using command::oneOf;
+  CLI::App* const app =
+      line.add_subcommand("stability", "Try hard cases, each long enough to blow up, against the bounds of physics");
+  const auto options = std::make_shared<StabilityOptions>();
+  app->add_option("--case", options->name, "One of them; default is all of docs/stability.md")
+      ->check(oneOf("--case", caseNames()));
+  app->add_option("--group", options->group, "One group of them")->check(oneOf("--group", groupNames()));
+  app->add_option("--world", options->world, "Bullet's world; none: the cases that need no world")
+      ->check(oneOf("--world", command::namesOf(stabilityWorlds())));
+  app->add_option("--step", options->step, "One step [s], 0.01 or 1/100, instead of 1/1000, 1/240, 1/60, 1/30, 1/10");
+  command::addPrecision(*app, options->precision);
+  app->add_flag("--quick", options->isQuick, "Only the steps 1/240 s and 1/30 s, and a minute of laundry");
+  command::addJson(*app, options->json);
+  app->add_option("--markdown", options->markdown,
+                  "File in which the table is written between the lines <!-- stability PRECISION --> and <!-- end of "
+                  "stability PRECISION -->");
+  return {app, [options] { tryHardCases(*options); }, [options] { return command::wishOf(options->precision); }};
 }
 
 }  // namespace stability

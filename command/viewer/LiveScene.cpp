@@ -30,9 +30,7 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 template <class E, class Action>
 void forEach(const command::SceneWorld& world, Action action) {
   for (WetCloth* cloth : world.cloths()) {
-    for (const auto& effect : cloth->effects()) {
-      if (auto* found = dynamic_cast<E*>(effect.get())) action(*found, *cloth);
-    }
+    cloth->forEach<E>([&](E& effect) { action(effect, *cloth); });
   }
 }
 
@@ -55,7 +53,7 @@ Grip::Push pushInPlainBullet(bool isDeformable) {
 
 LiveScene::LiveScene(command::Scene scene) : m_original(std::move(scene)), m_effects(m_original), m_scene(m_original) {
   build();
-  m_recorder = std::make_unique<command::Recorder>(*m_wet);
+  m_sampler = std::make_unique<command::FrameSampler>(*m_wet);
   note();
 }
 
@@ -340,7 +338,7 @@ void LiveScene::dragTo(const btVector3& goal) {
 const pictures::Frame& LiveScene::frame(Side side) {
   const command::SceneWorld& world = side == Side::plainBullet && m_plain ? *m_plain : *m_wet;
   pictures::Frame& frame = m_frames[side == Side::plainBullet ? 1 : 0];
-  m_recorder->take(world, world.time(), frame);
+  m_sampler->take(world, world.time(), frame);
   return frame;
 }
 

@@ -4,18 +4,30 @@
 #include "command/viewer/LiveScene.h"
 #include "command/viewer/Player.h"
 
+#include "command/cli/CommonOptions.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/cli/StagedOutput.h"
 #include "command/run/StateHash.h"
+#include "command/scene/SceneOptions.h"
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 namespace viewer {
 namespace {
+
+struct ViewOptions : command::SceneOptions {
+  std::string size = "1280x800";  ///< of the window [pixels]
+  bool paused = false;
+  bool compare = false;
+  std::optional<int> frames;  ///< closes the window after so many pictures, one step each; none: when told to
+  std::string screenshot;     ///< file for the last picture; empty: none
+  std::string json;
+};
 
 constexpr int smallest = 320;
 constexpr int largest = 8192;
@@ -73,11 +85,9 @@ nlohmann::ordered_json jsonOf(const LiveScene& live, const PlayerReport& report)
   return json;
 }
 
-}  // namespace
-
-void viewScene(const ViewOptions& options, char** arguments) {
+void viewScene(const ViewOptions& options) {
   PlayerOptions playerOptions = playerOptionsOf(options);
-  LiveScene live(command::readScene(options, arguments));
+  LiveScene live(command::prepareScene(options).scene);
   const auto picture = pictureOf(options);
   requirePlayer();
   command::JsonOutput output(options.json);
@@ -87,6 +97,23 @@ void viewScene(const ViewOptions& options, char** arguments) {
   const PlayerReport report = play(live, playerOptions);
   if (picture) picture->commit();
   output.write(jsonOf(live, report));
+}
+
+}  // namespace
+
+command::Command addViewCommand(CLI::App& line) {
+  CLI::App* const app = line.add_subcommand("view", "Play with a scene in a window");
+  const auto options = std::make_shared<ViewOptions>();
+  addSceneFile(*app, *options);
+  app->add_option("--size", options->size, "Of the window, WIDTHxHEIGHT [pixels]")->capture_default_str();
+  app->add_flag("--paused", options->paused, "Begin paused");
+  app->add_flag("--compare", options->compare, "Begin with plain Bullet beside the wet cloth");
+  addQuality(*app, *options, "Substeps and iterations, as for `wetcloth run`; the window changes both");
+  addScenePrecision(*app, *options);
+  app->add_option("--frames", options->frames, "Close the window after so many pictures, one step of the scene each");
+  app->add_option("--screenshot", options->screenshot, "File for the window's last picture, .png");
+  command::addJson(*app, options->json, "how it was left");
+  return {app, [options] { viewScene(*options); }, [options] { return wishOf(*options); }};
 }
 
 }  // namespace viewer

@@ -6,9 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::callback_chain_test {
 
 namespace {
 
@@ -206,4 +204,4 @@ TEST(CallbackChainOfAnotherWorld, IsRefused) {
 WETCLOTH_IN_EVERY_WORLD(CallbackChain);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::callback_chain_test

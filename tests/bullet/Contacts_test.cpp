@@ -3,10 +3,9 @@
 
 #include "tests/support/ContactScene.h"
 
-namespace wetcloth_test {
+namespace wetcloth_test::contacts_test {
 namespace {
 
-using core::RigidBody;
 using wetcloth::FaceContact;
 using wetcloth::FaceContacts;
 using wetcloth::RigidContact;
@@ -18,7 +17,7 @@ TEST_P(ContactsInWorld, ARigidContactIsToldAlikeInEveryWorld) {
   ClothScene scene(GetParam(), {0, 0, 0}, Lying().builder(GetParam()));
   RigidBody floor(scene.bullet(), box(5, 0.5, 5), 0, {0, -0.5, 0});
   std::array<int, 16> found = {};
-  core::addCall(
+  addCall(
       scene.cloth(),
       [&](wetcloth::WetCloth& cloth, const wetcloth::Step&) {
         RigidContacts(cloth).visit([&](const RigidContact& contact) {
@@ -126,4 +125,4 @@ TEST(ContactArea, IsAThirdOfTheTrianglesOrTheMassOverTheArealDensity) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::contacts_test

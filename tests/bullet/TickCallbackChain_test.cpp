@@ -6,9 +6,7 @@
 
 #include <stdexcept>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::tick_callback_chain_test {
 
 namespace {
 
@@ -239,4 +237,4 @@ TEST(TickCallbackOfASleeper, DoesNotRun) {
 WETCLOTH_IN_EVERY_WORLD(TickCallbackChain);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::tick_callback_chain_test

@@ -9,9 +9,7 @@
 #include <limits>
 #include <set>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::bending_constraints_test {
 
 namespace {
 
@@ -53,4 +51,4 @@ TEST(BendingConstraints, OurPatchIsRightAboveBulletsLimit) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::bending_constraints_test

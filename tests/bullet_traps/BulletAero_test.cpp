@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::bullet_aero_test {
 
 namespace {
 
@@ -97,4 +95,4 @@ TEST(BulletAero, WeLeaveItsSettingsAlone) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::bullet_aero_test

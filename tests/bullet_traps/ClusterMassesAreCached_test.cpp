@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::cluster_masses_are_cached_test {
 
 namespace {
 
@@ -114,4 +112,4 @@ TEST_P(ClusterMassesAreCached, RunsLikeABodyBuiltHeavy) {
 WETCLOTH_IN_EVERY_WORLD(ClusterMassesAreCached);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::cluster_masses_are_cached_test

@@ -5,10 +5,9 @@
 
 #include <algorithm>
 
-namespace wetcloth_test {
+namespace wetcloth_test::contact_lists_test {
 namespace {
 
-using core::RigidBody;
 using Flags = btSoftBody::fCollision;
 
 /// Two sheets on a floor, without anything of ours.
@@ -120,7 +119,7 @@ TEST(ContactListsOfTheDeformableWorld, OfSoftBodiesMakeNoTwoRunsAlike) {
   Sheets again(WorldKind::deformable, contactFlags(WorldKind::deformable));
   once.bullet.step(240);
   again.bullet.step(240);
-  EXPECT_FALSE(core::sameBits(core::stateOf(*once.upper), core::stateOf(*again.upper)));
+  EXPECT_FALSE(sameBits(stateOf(*once.upper), stateOf(*again.upper)));
 }
 
 // So an effect that looks at them before the prediction sees contacts of the day when the body fell asleep.
@@ -132,4 +131,4 @@ TEST(ContactListsOfTheDeformableWorld, OfASleeperStay) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::contact_lists_test

@@ -6,9 +6,7 @@
 
 #include <BulletSoftBody/btDeformableBackwardEulerObjective.h>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::deformable_caches_masses_test {
 
 namespace {
 
@@ -148,4 +146,4 @@ INSTANTIATE_TEST_SUITE_P(, DeformableCachesMasses,
                          [](const auto& test) { return std::string(nameOf(test.param)); });
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::deformable_caches_masses_test

@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::deformable_ignores_forces_test {
 
 namespace {
 
@@ -58,4 +56,4 @@ TEST_P(DeformableIgnoresForces, OurWindMovesTheClothInEveryWorld) {
 WETCLOTH_IN_EVERY_WORLD(DeformableIgnoresForces);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::deformable_ignores_forces_test

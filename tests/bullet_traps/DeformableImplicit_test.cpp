@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::deformable_implicit_test {
 
 namespace {
 
@@ -83,4 +81,4 @@ TEST(DeformableImplicit, WithProjectionItFalls) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::deformable_implicit_test

@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::deformable_sleep_test {
 
 namespace {
 
@@ -92,4 +90,4 @@ INSTANTIATE_TEST_SUITE_P(, DeformableSleep, testing::Values(WorldKind::deformabl
                          [](const auto& test) { return std::string(nameOf(test.param)); });
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::deformable_sleep_test

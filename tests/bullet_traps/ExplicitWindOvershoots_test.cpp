@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::explicit_wind_overshoots_test {
 
 namespace {
 
@@ -52,4 +50,4 @@ TEST_P(ExplicitWindOvershoots, TheDefaultDoesNot) {
 WETCLOTH_IN_EVERY_WORLD(ExplicitWindOvershoots);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::explicit_wind_overshoots_test

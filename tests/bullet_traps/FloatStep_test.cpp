@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::float_step_test {
 
 namespace {
 
@@ -49,4 +47,4 @@ TEST_P(WaterKeepsItsDigits, WhateverTheSolverDoesToTheStep) {
 WETCLOTH_IN_EVERY_WORLD(WaterKeepsItsDigits);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::float_step_test

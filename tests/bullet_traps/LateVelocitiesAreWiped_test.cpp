@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::late_velocities_are_wiped_test {
 
 namespace {
 
@@ -71,4 +69,4 @@ TEST_P(OneEarlyPush, Lasts) {
 WETCLOTH_IN_EVERY_WORLD(OneEarlyPush);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::late_velocities_are_wiped_test

@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::link_constants_are_cached_test {
 
 namespace {
 
@@ -54,7 +52,7 @@ TEST_P(LinkConstants, FollowAbsorption) {
     scene.bullet.step(1);
     expectFresh(scene.body());
   }
-  EXPECT_GT(cloth.masses().linkRefreshes(), 0);
+  EXPECT_GT(cloth.linkConstants().refreshes(), 0);
 }
 
 TEST_P(LinkConstants, FollowWaterSetByHand) {
@@ -75,12 +73,12 @@ TEST_P(LinkConstants, AreLeftAloneWhenNoMassChanged) {
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   cloth.add<wetcloth::Absorption>({0.0});  // exposed nowhere
   cloth.add<wetcloth::Wind>({btVector3(1, 0, 2)});
-  const long long before = cloth.masses().linkRefreshes();
+  const long long before = cloth.linkConstants().refreshes();
   scene.bullet.step(20);
-  EXPECT_EQ(cloth.masses().linkRefreshes(), before);
+  EXPECT_EQ(cloth.linkConstants().refreshes(), before);
 }
 
 WETCLOTH_IN_EVERY_WORLD(LinkConstants);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::link_constants_are_cached_test

@@ -7,9 +7,7 @@
 
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::link_order_test {
 
 namespace {
 
@@ -67,4 +65,4 @@ TEST_P(LinkOrderIsKept, OfABodyThatIsNotOurs) {
 WETCLOTH_IN_EVERY_WORLD(LinkOrderIsKept);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::link_order_test

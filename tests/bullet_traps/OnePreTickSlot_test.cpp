@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::one_pre_tick_slot_test {
 
 namespace {
 
@@ -100,4 +98,4 @@ TEST_P(PickingGoesOn, AfterWeLeft) {
 WETCLOTH_IN_EVERY_WORLD(PickingGoesOn);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::one_pre_tick_slot_test

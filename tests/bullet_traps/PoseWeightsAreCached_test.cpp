@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::pose_weights_are_cached_test {
 
 namespace {
 
@@ -98,4 +96,4 @@ TEST_P(PoseWeightsAreCached, RunsLikeABodyBuiltHeavy) {
 WETCLOTH_IN_EVERY_WORLD(PoseWeightsAreCached);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::pose_weights_are_cached_test

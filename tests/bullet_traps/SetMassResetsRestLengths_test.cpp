@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::set_mass_resets_rest_lengths_test {
 
 namespace {
 
@@ -59,4 +57,4 @@ TEST_P(SetMassResetsRestLengths, WettingByHandLeavesThemAlone) {
 WETCLOTH_IN_EVERY_WORLD(SetMassResetsRestLengths);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::set_mass_resets_rest_lengths_test

@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::substep_and_timescale_test {
 
 namespace {
 
@@ -99,4 +97,4 @@ TEST_P(SubstepAndTimescale, GravityToldIsTheOneThatBulletAdds) {
 WETCLOTH_IN_EVERY_WORLD(SubstepAndTimescale);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::substep_and_timescale_test

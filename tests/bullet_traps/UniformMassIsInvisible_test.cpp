@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::uniform_mass_is_invisible_test {
 
 namespace {
 
@@ -58,4 +56,4 @@ INSTANTIATE_TEST_SUITE_P(, UniformMassIsInvisible, testing::Values(WorldKind::so
                          [](const auto& test) { return std::string(nameOf(test.param)); });
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::uniform_mass_is_invisible_test

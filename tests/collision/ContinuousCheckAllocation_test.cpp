@@ -33,7 +33,7 @@ void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace test {
+namespace wetcloth_test::continuous_check_allocation_test {
 namespace {
 
 using wetcloth::collision::Contact;
@@ -76,6 +76,6 @@ TEST(ContinuousCheckAllocation, NoTierAllocatesOnEitherCollection) {
 }
 
 }  // namespace
-}  // namespace test
+}  // namespace wetcloth_test::continuous_check_allocation_test
 
 #endif

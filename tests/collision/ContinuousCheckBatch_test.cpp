@@ -9,7 +9,7 @@
 #include <memory>
 #include <new>
 
-namespace test {
+namespace wetcloth_test::continuous_check_batch_test {
 namespace {
 
 bool same(const Contact& a, const Contact& b) {
@@ -193,4 +193,4 @@ TYPED_TEST(ContinuousCheckBatch, ExcludesNearlyAllThatAreFarApart) {
 }
 
 }  // namespace
-}  // namespace test
+}  // namespace wetcloth_test::continuous_check_batch_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace test {
+namespace wetcloth_test::continuous_check_certain_test {
 namespace {
 
 template <class Scalar>
@@ -87,4 +87,4 @@ TYPED_TEST(ContinuousCheckCertain, ContactsAreFoundInTimeAndInPlace) {
 }
 
 }  // namespace
-}  // namespace test
+}  // namespace wetcloth_test::continuous_check_certain_test

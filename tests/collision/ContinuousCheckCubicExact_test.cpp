@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <boost/multiprecision/cpp_int.hpp>
 
-namespace test {
+namespace wetcloth_test::continuous_check_cubic_exact_test {
 namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
@@ -71,4 +71,4 @@ TYPED_TEST(CoplanarityCubicExact, ErrorBoundsEveryCoefficient) {
 }
 
 }  // namespace
-}  // namespace test
+}  // namespace wetcloth_test::continuous_check_cubic_exact_test

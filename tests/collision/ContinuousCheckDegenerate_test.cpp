@@ -8,7 +8,7 @@
 
 #include <limits>
 
-namespace test {
+namespace wetcloth_test::continuous_check_degenerate_test {
 namespace {
 
 template <class Scalar>
@@ -477,4 +477,4 @@ TYPED_TEST(ContinuousCheckNotFinite, EverythingAtOnceToo) {
 }
 
 }  // namespace
-}  // namespace test
+}  // namespace wetcloth_test::continuous_check_degenerate_test

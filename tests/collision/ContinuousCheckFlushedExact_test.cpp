@@ -14,7 +14,7 @@
 #include <pmmintrin.h>
 #include <xmmintrin.h>
 
-namespace test {
+namespace wetcloth_test::continuous_check_flushed_exact_test {
 namespace {
 
 using wetcloth::collision::Contact;
@@ -101,6 +101,6 @@ TEST(ContinuousCheckFlushed, FloatsOfWhichOneAxisIsDenormal) { expectNothingIsMi
 TEST(ContinuousCheckFlushed, FloatsThatAreDenormal) { expectNothingIsMissed<float>({-124, -124, -124}); }
 
 }  // namespace
-}  // namespace test
+}  // namespace wetcloth_test::continuous_check_flushed_exact_test
 
 #endif

@@ -9,7 +9,7 @@
 
 #include <functional>
 
-namespace test {
+namespace wetcloth_test::continuous_check_invariance_test {
 namespace {
 
 struct Asked {
@@ -241,4 +241,4 @@ INSTANTIATE_TEST_SUITE_P(Pairs, ContinuousCheckInvariance, testing::Values(Pair:
                          NameOfPair());
 
 }  // namespace
-}  // namespace test
+}  // namespace wetcloth_test::continuous_check_invariance_test

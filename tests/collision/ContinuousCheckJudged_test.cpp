@@ -10,7 +10,7 @@
 
 #include <map>
 
-namespace test {
+namespace wetcloth_test::continuous_check_judged_test {
 namespace {
 
 using wetcloth::collision::coplanarityCubic;
@@ -208,4 +208,4 @@ TEST(ContinuousCheckJudge, AgreesWithDistancesAtManyMoments) {
 }
 
 }  // namespace
-}  // namespace test
+}  // namespace wetcloth_test::continuous_check_judged_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace test {
+namespace wetcloth_test::continuous_check_known_test {
 namespace {
 
 struct Counts {
@@ -142,4 +142,4 @@ TEST_P(ContinuousCheckKnown, ABiggerBudgetTurnsNoMissIntoAContact) {
 INSTANTIATE_TEST_SUITE_P(Pairs, ContinuousCheckKnown, testing::Values(Pair::vertexFace, Pair::edgeEdge), NameOfPair());
 
 }  // namespace
-}  // namespace test
+}  // namespace wetcloth_test::continuous_check_known_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace test {
+namespace wetcloth_test::continuous_check_separation_test {
 namespace {
 
 CheckSettings thick(double minSeparation, double tolerance = 1e-6) {
@@ -166,4 +166,4 @@ TYPED_TEST(ContinuousCheckSeparation, MoreOfItLosesNothing) {
 }
 
 }  // namespace
-}  // namespace test
+}  // namespace wetcloth_test::continuous_check_separation_test

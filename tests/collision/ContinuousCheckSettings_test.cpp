@@ -7,7 +7,7 @@
 
 #include <stdexcept>
 
-namespace test {
+namespace wetcloth_test::continuous_check_settings_test {
 namespace {
 
 // The message of the std::invalid_argument that the settings cause; empty when they are taken.
@@ -161,4 +161,4 @@ TEST(ContinuousCheckSettings, ASmallerToleranceReportsNoEarlierTime) {
 }
 
 }  // namespace
-}  // namespace test
+}  // namespace wetcloth_test::continuous_check_settings_test

@@ -8,7 +8,7 @@
 
 #include <sstream>
 
-namespace test {
+namespace wetcloth_test::continuous_check_property_test {
 namespace {
 
 // Structure makes the hard cases: small fractions that coincide, neighbours of them, and the odd arbitrary number.
@@ -94,4 +94,4 @@ TEST(ContinuousCheckProperty, AFaceIsMetWhereverItsEdgesAre) {
 }
 
 }  // namespace
-}  // namespace test
+}  // namespace wetcloth_test::continuous_check_property_test

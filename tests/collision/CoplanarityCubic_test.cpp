@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace test {
+namespace wetcloth_test::coplanarity_cubic_test {
 namespace {
 
 using wetcloth::collision::coplanarityCubic;
@@ -319,4 +319,4 @@ TEST(CoplanarityCubic, OfProductsThatUnderflowKeepsItsError) {
 }
 
 }  // namespace
-}  // namespace test
+}  // namespace wetcloth_test::coplanarity_cubic_test

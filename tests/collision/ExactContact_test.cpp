@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::exact_contact_test {
 namespace {
 
 using wetcloth::collision::Contact;
@@ -154,7 +154,7 @@ TEST(ExactContact, AgreesWithTheOracleBesideDegeneraciesInOnePlane) { expectRigh
 TEST(ExactContact, AgreesWithEveryPublishedAnswerAndWithTheOracleOnTheTime) {
   for (const char* collection : {"real", "cloth"}) {
     int wrong = 0;
-    for (const auto& query : test::knownQueries(collection)) {
+    for (const auto& query : knownQueries(collection)) {
       SCOPED_TRACE(testing::Message() << collection << " " << query.id);
       wrong += exactContact(query.pair, query.points, kTolerance).found != query.meets;
       if (query.meets) expectRight(query.pair, query.points, kFinest);
@@ -164,7 +164,7 @@ TEST(ExactContact, AgreesWithEveryPublishedAnswerAndWithTheOracleOnTheTime) {
 }
 
 TEST(ExactContact, ReportsTheTimeWithinEveryTolerance) {
-  for (const auto& query : test::knownQueries("real")) {
+  for (const auto& query : knownQueries("real")) {
     if (!query.meets) continue;
     for (const double tolerance : {1.0, 0.3, 1e-3, kTolerance, 1e-9}) expectRight(query.pair, query.points, tolerance);
     EXPECT_EQ(exactContact(query.pair, query.points, 1e-3).where[0], 0);
@@ -174,7 +174,7 @@ TEST(ExactContact, ReportsTheTimeWithinEveryTolerance) {
 TEST(ExactContact, DoesNotDependOnTheOrderOfPointsTheDirectionOfTimeOrTheUnit) {
   const std::vector<std::array<int, 4>> faces = {{0, 1, 3, 2}, {0, 2, 1, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {0, 3, 2, 1}};
   const std::vector<std::array<int, 4>> edges = {{1, 0, 2, 3}, {0, 1, 3, 2}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
-  for (const auto& [id, scene, pair, meets, query] : test::knownQueries("real")) {
+  for (const auto& [id, scene, pair, meets, query] : knownQueries("real")) {
     SCOPED_TRACE(id);
     const double time = exactContact(pair, query, kFinest).time;
     for (const auto& order : pair == Pair::edgeEdge ? edges : faces) {
@@ -387,4 +387,4 @@ TEST(ExactContact, MinusZeroIsZero) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::exact_contact_test

@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::exact_roots_test {
 namespace {
 
 using oracle::Rational;
@@ -119,4 +119,4 @@ TEST(ExactRoots, OfConstantsThereAreNone) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::exact_roots_test

@@ -10,7 +10,7 @@
 #include <iostream>
 #include <map>
 
-namespace test {
+namespace wetcloth_test {
 namespace {
 
 constexpr std::size_t kBatch = 64;
@@ -100,7 +100,7 @@ int fuzz(long long count, std::uint64_t seed) {
 }
 
 }  // namespace
-}  // namespace test
+}  // namespace wetcloth_test
 
 int main(int argc, char** argv) {
   const long long count = argc > 1 ? std::atoll(argv[1]) : 0;
@@ -108,5 +108,5 @@ int main(int argc, char** argv) {
     std::cerr << "usage: ccd_fuzz N [SEED]" << std::endl;
     return 2;
   }
-  return test::fuzz(count, argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1);
+  return wetcloth_test::fuzz(count, argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1);
 }

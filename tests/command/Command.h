@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace command {
+namespace wetcloth_test::cli {
 
 using Json = nlohmann::json;
 
@@ -54,4 +54,4 @@ class TemporaryDirectory {
   std::string m_path;
 };
 
-}  // namespace command
+}  // namespace wetcloth_test::cli

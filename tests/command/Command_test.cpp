@@ -14,7 +14,7 @@
 #include <iterator>
 #include <stdexcept>
 
-namespace command {
+namespace wetcloth_test::cli {
 namespace {
 
 std::string quoted(const std::string& word) {
@@ -108,17 +108,21 @@ std::string TemporaryDirectory::write(const std::string& name, const std::string
   return path(name);
 }
 
-}  // namespace command
+}  // namespace wetcloth_test::cli
+
+namespace wetcloth_test::command_test {
 
 TEST(Command, VersionAndHelpEndWithStatusZero) {
-  EXPECT_EQ(command::runWetcloth({"--version"}).status, 0);
-  EXPECT_EQ(command::runWetcloth({"--version"}).out.rfind("wetcloth ", 0), 0u);
+  EXPECT_EQ(cli::runWetcloth({"--version"}).status, 0);
+  EXPECT_EQ(cli::runWetcloth({"--version"}).out.rfind("wetcloth ", 0), 0u);
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
            {"--help"}, {"run", "--help"}, {"fall", "--help"}, {"validate", "--help"}}) {
-    const command::Outcome outcome = command::runWetcloth(arguments);
+    const cli::Outcome outcome = cli::runWetcloth(arguments);
     EXPECT_EQ(outcome.status, 0);
     EXPECT_NE(outcome.out.find("--help"), std::string::npos);
     EXPECT_EQ(outcome.err, "");
   }
-  EXPECT_NE(command::runWetcloth({"--help"}).out.find("Examples:"), std::string::npos);
+  EXPECT_NE(cli::runWetcloth({"--help"}).out.find("Examples:"), std::string::npos);
 }
+
+}  // namespace wetcloth_test::command_test

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace command {
+namespace wetcloth_test::cli {
 
 /// Eight bits each of red, green and blue, from the top left, row by row.
 struct Picture {
@@ -44,4 +44,4 @@ class ChangedPath {
   std::string m_before;
 };
 
-}  // namespace command
+}  // namespace wetcloth_test::cli

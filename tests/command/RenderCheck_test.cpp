@@ -18,7 +18,7 @@
 #include <stb/stb_image.h>
 #endif
 
-namespace command {
+namespace wetcloth_test::cli {
 
 std::string whyNothingCanBeDrawn() {
 #ifndef STBI_ONLY_PNG
@@ -86,12 +86,16 @@ ChangedPath::ChangedPath(const std::string& path) : m_before(std::getenv("PATH")
 
 ChangedPath::~ChangedPath() { setenv("PATH", m_before.c_str(), 1); }
 
-}  // namespace command
+}  // namespace wetcloth_test::cli
+
+namespace wetcloth_test::render_check_test {
 
 TEST(RenderCheck, DifferenceOfPicturesIsMeasured) {
-  const command::Picture grey{2, 1, {100, 100, 100, 100, 100, 100}};
-  const command::Picture other{2, 1, {100, 100, 100, 106, 94, 100}};
+  const cli::Picture grey{2, 1, {100, 100, 100, 100, 100, 100}};
+  const cli::Picture other{2, 1, {100, 100, 100, 106, 94, 100}};
   EXPECT_EQ(meanDifference(grey, grey), 0);
   EXPECT_EQ(meanDifference(grey, other), 2);
   EXPECT_FALSE(std::isfinite(meanDifference(grey, partOf(grey, 1, 0, 1, 1))));
 }
+
+}  // namespace wetcloth_test::render_check_test

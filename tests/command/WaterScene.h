@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-namespace command {
+namespace wetcloth_test::cli {
 
 /// A square metre of the fabric of tests/scenes/small.json.
 constexpr double dryMass = 0.15;             // [kg]
@@ -49,4 +49,4 @@ inline double saturation(const Json& result, const std::string& key) {
 }
 inline double centre(const Json& result, int axis) { return result.at("centre_of_mass").at(axis).get<double>(); }
 
-}  // namespace command
+}  // namespace wetcloth_test::cli

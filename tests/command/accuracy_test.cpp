@@ -9,10 +9,10 @@
 
 // What a machine takes is never asserted here, only what is said about it.
 
-namespace wetcloth_test {
+namespace wetcloth_test::accuracy_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 TEST(AccuracyCommand, TellsPointsFrontOrderAndAdvice) {
   const TemporaryDirectory directory;
@@ -84,4 +84,4 @@ TEST(Quality, IsOrderedFromDraftToReference) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::accuracy_test

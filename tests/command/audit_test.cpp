@@ -5,10 +5,10 @@
 
 #include <string>
 
-namespace wetcloth_test {
+namespace wetcloth_test::audit_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 /// A sheet that is wrung, small and short.
 Json wrungSheet() {
@@ -26,8 +26,6 @@ std::string refusal(const Json& scene) {
   EXPECT_EQ(outcome.status, 2);
   return outcome.err;
 }
-
-}  // namespace
 
 TEST(Audit, CountsWhatPassesAndChangesNothing) {
   Json scene = wrungSheet();
@@ -73,4 +71,5 @@ TEST(Audit, AFlagThatBulletDoesNotHaveIsRefused) {
   EXPECT_NE(refusal(scene).find("VF_SELF"), std::string::npos);
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::audit_test

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::command_bad_input_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 struct BadScene {
   std::string name;
@@ -128,8 +128,6 @@ std::vector<BadMesh> badMeshes() {
           {"faces without area", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", {"area"}}};
 }
 
-}  // namespace
-
 TEST_P(BadSceneTest, IsRefusedInOneLine) {
   Json scene = smallScene();
   GetParam().spoil(scene);
@@ -216,4 +214,5 @@ TEST(CommandBadInput, Usage) {
   }
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::command_bad_input_test

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::ccd_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 std::string dataFile(const std::string& collection) {
   return WETCLOTH_SOURCE_DIR "/tests/data/ccd/" + collection + "_queries.csv.gz";
@@ -129,8 +129,6 @@ std::ostream& operator<<(std::ostream& stream, const Expected& tested) {
 }
 
 class CcdTier : public testing::TestWithParam<Expected> {};
-
-}  // namespace
 
 TEST_P(CcdBadLine, IsRefusedWithItsPlace) {
   const TemporaryDirectory directory;
@@ -291,4 +289,5 @@ INSTANTIATE_TEST_SUITE_P(Collections, CcdTier,
                                          Expected{"cloth", "conservative"}, Expected{"cloth", "exact"}),
                          [](const auto& tested) { return tested.param.collection + "_" + tested.param.method; });
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::ccd_test

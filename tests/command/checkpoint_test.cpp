@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::checkpoint_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 /// All that does not depend on how fast the machine was.
 Json withoutTimes(Json report) {
@@ -129,4 +129,4 @@ TEST_F(Checkpoint, OptionsAreChecked) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::checkpoint_test

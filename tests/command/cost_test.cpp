@@ -12,10 +12,10 @@
 
 // What a machine takes is never asserted here, only what is said about it.
 
-namespace wetcloth_test {
+namespace wetcloth_test::cost_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 Json costOf(const std::vector<std::string>& arguments) {
   std::vector<std::string> words{"cost", "--json", "-", "--precision", ownPrecision()};
@@ -55,8 +55,6 @@ void expectConsistent(const Json& result) {
     EXPECT_EQ(effect.at("below_noise").get<bool>(), percent <= effect.at("noise_percent").get<double>());
   }
 }
-
-}  // namespace
 
 TEST(Cost, WithoutASceneEveryEffectThatASceneCanHave) {
   const Json result = costOf({"--steps", "1"});
@@ -181,4 +179,5 @@ TEST(Cost, AWorldThatFailsWithoutAnEffectEndsTheMeasurement) {
   expectConsistent(result);
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::cost_test

@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::export_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 namespace fs = std::filesystem;
 
 std::string bytesOf(const std::string& file) {
@@ -61,8 +61,6 @@ Json namedScene(const std::vector<std::string>& names) {
   }
   return scene;
 }
-
-}  // namespace
 
 TEST(Export, FramesAreEvenlySpacedFromTheStartToTheEnd) {
   const TemporaryDirectory directory;
@@ -234,4 +232,5 @@ TEST(RenderPage, ShowsOneRun) {
   EXPECT_EQ(bytesOf(out).rfind("<!DOCTYPE html>", 0), 0u);
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::export_test

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <string>
 
-namespace wetcloth_test {
+namespace wetcloth_test::fall_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 constexpr double g = 9.81;
 constexpr double substep = 1.0 / 240;
@@ -45,8 +45,6 @@ void expectWithinOneSubstep(const Json& cases) {
 }
 
 class FallInWorld : public testing::TestWithParam<const char*> {};
-
-}  // namespace
 
 TEST_P(FallInWorld, PaperFourSecondsDryTwoSaturated) {
   const Json cases = fall({"--world", GetParam()});
@@ -90,4 +88,5 @@ TEST(Fall, TableShowsEveryCaseWithItsClosedForm) {
   }
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::fall_test

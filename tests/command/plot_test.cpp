@@ -17,10 +17,10 @@
 #include <map>
 #include <sstream>
 
-namespace wetcloth_test {
+namespace wetcloth_test::plot_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 namespace fs = std::filesystem;
 
 std::string contents(const std::string& file) {
@@ -98,8 +98,6 @@ Table tableOf(const std::string& plot, const std::string& file) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   return readTable(directory.path("plots/" + file + ".csv"));
 }
-
-}  // namespace
 
 TEST(Plot, MassIsTableIIInPaperModeAndEquation2InPhysicalMode) {
   const Table table = tableOf("mass", "mass");
@@ -275,4 +273,5 @@ TEST(Plot, AFolderInTheWayOfATableIsARunThatFailed) {
   EXPECT_EQ(filesIn(directory.path("p")), std::vector<std::string>{"mass.csv"});
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::plot_test

@@ -13,10 +13,10 @@
 
 // Each is refused in one line that names the option, the value and what is allowed, and leaves no file.
 
-namespace wetcloth_test {
+namespace wetcloth_test::render_bad_input_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 struct BadInput {
   std::vector<std::string> arguments;
@@ -32,8 +32,6 @@ void expectRefused(const std::string& out, const BadInput& bad) {
   expectRefusal(runWetcloth(words), bad.words);
   EXPECT_EQ(namesIn(directory.path("")), std::vector<std::string>{"scene.json"});
 }
-
-}  // namespace
 
 TEST(RenderBadInput, Sizes) {
   for (const char* size : {"0x0", "0x720", "15x720", "8193x720", "1280x99999999999", "-1280x720", "1280", "1280x720x3",
@@ -123,4 +121,5 @@ TEST(RenderBadInput, SceneThatFailsLeavesNoPicture) {
   EXPECT_TRUE(namesIn(directory.path("")).empty());
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::render_bad_input_test

@@ -11,10 +11,10 @@
 // Pictures against those in tests/data/pictures. After a change of how things look: look at the new ones, and store
 // them with WETCLOTH_STORE_PICTURES=1.
 
-namespace wetcloth_test {
+namespace wetcloth_test::render_reference_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 /// Mean difference of two drawings of one scene, in steps of 1/255. Bullet in float64 instead of float32 comes to 0.1
 /// in these pictures; another driver moves edges by part of a pixel, and each pixel on an edge is one of a few hundred
@@ -56,8 +56,6 @@ class RenderReference : public ::testing::Test {
   TemporaryDirectory m_directory;
 };
 
-}  // namespace
-
 TEST_F(RenderReference, PicturesAreThoseStored) {
   for (const Shot& shot : shots()) {
     SCOPED_TRACE(shot.name);
@@ -85,4 +83,5 @@ TEST_F(RenderReference, MistakesAreLargerThanTheTolerance) {
   }
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::render_reference_test

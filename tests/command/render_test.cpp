@@ -10,10 +10,10 @@
 
 // wetcloth render: what is made, and that nothing half-made is left.
 
-namespace wetcloth_test {
+namespace wetcloth_test::render_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 /// A sheet, seen from near.
 Json sheetScene() {
@@ -52,8 +52,6 @@ class RenderFilm : public Render {
     return Json::parse(outcome.out).at("streams").at(0);
   }
 };
-
-}  // namespace
 
 TEST_F(Render, PictureHasTheSizeAskedFor) {
   const Json result = render("a.png", {"--size", "161x97"});
@@ -149,4 +147,5 @@ TEST_F(Render, FilmWithoutFfmpegSaysWhatToInstall) {
   EXPECT_EQ(namesIn(path("")), std::vector<std::string>{"scene.json"});
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::render_test

@@ -8,14 +8,12 @@
 #include <fstream>
 #include <string>
 
-namespace wetcloth_test {
+namespace wetcloth_test::run_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 double centreHeight(const Json& result) { return result.at("centre_of_mass").at(1).get<double>(); }
-
-}  // namespace
 
 TEST(Run, EveryExampleSceneGivesAllKeys) {
   const std::vector<std::string> files = sceneFiles();
@@ -200,4 +198,5 @@ TEST(Validate, SaysOkForEachExampleScene) {
   EXPECT_EQ(outcome.out, expected);
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::run_test

@@ -8,10 +8,10 @@
 #include <set>
 #include <string>
 
-namespace wetcloth_test {
+namespace wetcloth_test::schema_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 const char* const schemaFile = WETCLOTH_SOURCE_DIR "/examples/scenes/scene.schema.json";
 
@@ -45,8 +45,6 @@ void expectClosedObjects(const Json& schema, const std::string& where) {
   if (!schema.is_structured()) return;
   for (const auto& [key, value] : schema.items()) expectClosedObjects(value, where + "/" + key);
 }
-
-}  // namespace
 
 TEST(Schema, HasTheKeysThatTheReaderKnowsAndNoOthers) {
   const Json schema = readJson(schemaFile);
@@ -85,4 +83,5 @@ TEST(Schema, RefusesATypoAtEachDepth) {
   }
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::schema_test

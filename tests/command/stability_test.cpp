@@ -7,10 +7,10 @@
 #include <iterator>
 #include <set>
 
-namespace wetcloth_test {
+namespace wetcloth_test::stability_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 Json stabilityOf(std::vector<std::string> more) {
   std::vector<std::string> arguments{"stability", "--json", "-", "--precision", ownPrecision()};
@@ -101,4 +101,4 @@ TEST(Stability, BadInputIsRefusedInOneLine) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::stability_test

@@ -8,16 +8,14 @@
 
 // What the window does is in tests/command/viewer.
 
-namespace wetcloth_test {
+namespace wetcloth_test::view_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 std::string smallSceneIn(const TemporaryDirectory& directory) {
   return directory.write("scene.json", smallScene().dump());
 }
-
-}  // namespace
 
 TEST(View, HelpEndsWithStatusZero) {
   const Outcome outcome = runWetcloth({"view", "--help"});
@@ -61,4 +59,5 @@ TEST(View, ARefusalLeavesNoFile) {
   EXPECT_EQ(files, 1);
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::view_test

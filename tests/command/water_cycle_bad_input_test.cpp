@@ -10,10 +10,10 @@
 
 // What a scene may get wrong in the effects of the water cycle, in its water, and in a cloth's motion.
 
-namespace wetcloth_test {
+namespace wetcloth_test::water_cycle_bad_input_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 /// Has each key at a good value, and passes.
 Json goodScene() { return readJson(WETCLOTH_SOURCE_DIR "/tests/scenes/water_cycle.json"); }
@@ -115,8 +115,6 @@ std::vector<std::string> pointersOf(const Json& scene) {
   }
   return pointers;
 }
-
-}  // namespace
 
 TEST(WaterCycleBadInput, TheScenesThemselvesAreGood) {
   const TemporaryDirectory directory;
@@ -295,4 +293,5 @@ TEST(WaterCycleBadInput, MotionsThatCannotBe) {
   }
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::water_cycle_bad_input_test

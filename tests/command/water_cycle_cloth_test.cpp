@@ -9,10 +9,10 @@
 
 // What wetness and water do to the cloth, and how a scene moves it.
 
-namespace wetcloth_test {
+namespace wetcloth_test::water_cycle_cloth_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 /// Hangs from its top edge by true springs, saturated, at rest after some seconds.
 Json hangingWet(const std::string& world, const Json& stiffness) {
@@ -51,8 +51,6 @@ double heightAt(double time) {
   clothOf(scene)["motion"] = {{"times_s", {1, 2, 4}}, {"offsets_m", {{0, 0.5, 0}, {0, 2, 0}, {0, 1, 0}}}};
   return centre(runScene(scene), 1) - 1.5;
 }
-
-}  // namespace
 
 TEST(WaterCycleCloth, HalfTheStiffnessIsTwiceTheStretch) {
   for (const char* world : {"soft_rigid", "deformable"}) {
@@ -188,4 +186,5 @@ TEST(WaterCycleCloth, TheSummaryHasALineForDripsAndOneForRunOff) {
   EXPECT_EQ(neither.find("-0.0"), std::string::npos) << neither;
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::water_cycle_cloth_test

@@ -11,10 +11,10 @@
 // The schema's defaults are the library's, and each key reaches it: one cloth with all effects of the water cycle, so
 // placed that each has something to do, told apart by the hash of its state.
 
-namespace wetcloth_test {
+namespace wetcloth_test::water_cycle_keys_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 const std::vector<std::string>& effects() {
   static const std::vector<std::string> names{
@@ -138,8 +138,6 @@ std::vector<Bound> bounds() {
   return found;
 }
 
-}  // namespace
-
 TEST(WaterCycleKeys, TheSchemaKnowsADefaultForEveryKeyThatMayBeLeftOut) {
   std::size_t count = 0;
   for (const std::string& effect : effects()) {
@@ -207,4 +205,5 @@ TEST(WaterCycleKeys, TheMassOfADropIsInTheCountOfDrops) {
   EXPECT_NEAR(runScene(scene).at("drips").at("count").get<int>(), 5 * usual, usual);
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::water_cycle_keys_test

@@ -10,10 +10,10 @@
 // What brings water, moves it and takes it away, as a scene asks for it. Node by node it is computed in double, and
 // areas come from float32 positions: 1e-5 of it is rounding.
 
-namespace wetcloth_test {
+namespace wetcloth_test::water_cycle_test {
 namespace {
 
-using namespace command;
+using namespace cli;
 
 constexpr double rounding = 1e-5;
 
@@ -39,8 +39,6 @@ double penman(double celsius, double humidity, double speed) {
   const double kilopascals = 0.6108 * std::exp(17.27 * celsius / (celsius + 237.3));
   return 6.43 * (1 + 0.536 * speed) * kilopascals * (1 - humidity) / 2.45 / 86400;
 }
-
-}  // namespace
 
 TEST(WaterCycle, RainFillsALevelClothAtFluxTimesAreaAndRunsOffAFullOne) {
   const Json effects = {{"rain", {{"flux_kg_m2_s", 0.01}, {"speed_m_s", 0}}}};
@@ -258,4 +256,5 @@ TEST(WaterCycle, DryingFollowsTheAirAndBothStages) {
   }
 }
 
-}  // namespace wetcloth_test
+}  // namespace
+}  // namespace wetcloth_test::water_cycle_test

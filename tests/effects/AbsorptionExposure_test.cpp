@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::absorption_exposure_test {
 namespace {
 
 using wetcloth::Absorption;
@@ -219,4 +219,4 @@ TEST(AbsorptionIdles, UntilWaterIsSetByHand) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::absorption_exposure_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::absorption_law_test {
 namespace {
 
 using wetcloth::Absorption;
@@ -276,4 +276,4 @@ TEST_P(AbsorptionInWorld, PinnedNodesHoldWaterAndStayPinned) {
 WETCLOTH_IN_EVERY_WORLD(AbsorptionInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::absorption_law_test

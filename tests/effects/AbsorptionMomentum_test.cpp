@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace wetcloth_test {
+namespace wetcloth_test::absorption_momentum_test {
 namespace {
 
 using wetcloth::Absorption;
@@ -137,4 +137,4 @@ TEST_P(AbsorptionMomentumInWorld, WaterAtRestSlowsAFlyingClothDown) {
 WETCLOTH_IN_EVERY_WORLD(AbsorptionMomentumInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::absorption_momentum_test

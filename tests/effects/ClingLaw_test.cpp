@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace wetcloth_test {
+namespace wetcloth_test::cling_law_test {
 namespace {
 
 using wetcloth::BondImpulse;
@@ -75,7 +75,7 @@ TEST(ClingParameters, AreChecked) {
 
 TEST(ClingOnABody, NodesThatAreNotFiniteDoNotSpoilTheRigidBody) {
   ClothScene scene(WorldKind::softRigid, kEarthGravity, Lying().builder(WorldKind::softRigid));
-  core::RigidBody slab(scene.bullet(), box(5, 0.5, 5), 1000, {0, btScalar(-0.5), 0});
+  RigidBody slab(scene.bullet(), box(5, 0.5, 5), 1000, {0, btScalar(-0.5), 0});
   slab.body().setGravity({0, 0, 0});
   scene.cloth().setSaturation(0.5);
   Cling& cling = scene.cloth().add<Cling>();
@@ -103,4 +103,4 @@ TEST(ClingOnABody, SaysWhyItCannotWork) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::cling_law_test

@@ -3,13 +3,9 @@
 
 #include "tests/support/ContactScene.h"
 
-namespace wetcloth_test {
+namespace wetcloth_test::cling_test {
 namespace {
 
-using core::addCall;
-using core::RigidBody;
-using core::sameBits;
-using core::stateOf;
 using wetcloth::Cling;
 
 constexpr double kGravity = 9.81;
@@ -64,7 +60,7 @@ TEST_P(ClingInWorld, HangsUnderACeilingIfTheAdhesionBearsItsWeight) {
       EXPECT_EQ(cling.bonds(), 16);
       EXPECT_LT(std::fabs(fallen), 0.001);
       // A step's fall: the implicit world's solver leaves gravity out of some steps and makes good for it in others.
-      EXPECT_LT(core::largestSpeed(cloth.scene.body()), 1.1 * kGravity * kSubstep);
+      EXPECT_LT(largestSpeed(cloth.scene.body()), 1.1 * kGravity * kSubstep);
     } else {
       // Free fall: half a substep of first-order integration.
       EXPECT_EQ(cling.bonds(), 0);
@@ -111,7 +107,7 @@ TEST_P(ClingInWorld, OnAFloorItPressesNowhere) {
   scene.cloth().add<Cling>();
   scene.step(240);
   EXPECT_NEAR(centreOfMass(scene.body())[1], kMargin, 0.1 * kMargin);
-  EXPECT_LT(core::largestSpeed(scene.body()), 0.02);
+  EXPECT_LT(largestSpeed(scene.body()), 0.02);
 }
 
 TEST_P(ClingInWorld, DryingLetsItGo) {
@@ -153,7 +149,7 @@ TEST_P(ClingInWorld, ComesOffASphereAtItsAdhesion) {
   EXPECT_NEAR(pulled, 15 + weight, 0.05 * (15 + weight));
   // Let go, it moves by what pulls it and no more: no node is faster than a few steps of it.
   const double net = (pulled - weight) * area / scene.cloth().totalMass();
-  EXPECT_LT(core::largestSpeed(scene.body()), 5 * net * kSubstep);
+  EXPECT_LT(largestSpeed(scene.body()), 5 * net * kSubstep);
 }
 
 TEST_P(ClingInWorld, ABondThatLetsGoAddsNoEnergy) {
@@ -166,7 +162,7 @@ TEST_P(ClingInWorld, ABondThatLetsGoAddsNoEnergy) {
   double fastest = 0;
   for (int i = 1; i <= 60; ++i) {
     cloth.scene.step(1);
-    fastest = std::max(fastest, core::largestSpeed(cloth.scene.body()) - i * kGravity * kSubstep);
+    fastest = std::max(fastest, largestSpeed(cloth.scene.body()) - i * kGravity * kSubstep);
   }
   EXPECT_EQ(cling.bonds(), 0);
   // What the bonds had given to bring nodes back to their places, 1e-4 m in a step.
@@ -250,7 +246,7 @@ TEST_P(ClingInWorld, HoldsOnThroughACut) {
   ASSERT_TRUE(body.cutLink(body.m_faces[0].m_n[0], body.m_faces[0].m_n[1], btScalar(0.5)));
   cloth.scene.step(60);
   EXPECT_GE(cling.bonds(), 14) << "the two nodes at the cut hang from new ones, of 1 kg each";
-  EXPECT_TRUE(core::isFinite(body));
+  EXPECT_TRUE(isFinite(body));
 }
 
 TEST_P(ClingInWorld, IsFiniteForAnyStep) {
@@ -259,7 +255,7 @@ TEST_P(ClingInWorld, IsFiniteForAnyStep) {
     cloth.scene.cloth().add<Cling>();
     cloth.scene.step(3);
     for (int i = 0; i < 3; ++i) cloth.scene.preTick(dt);
-    EXPECT_TRUE(core::isFinite(cloth.scene.body())) << dt;
+    EXPECT_TRUE(isFinite(cloth.scene.body())) << dt;
   }
 }
 
@@ -289,4 +285,4 @@ TEST(ClingAsleep, WakesWhenItsHoldGoes) {
 WETCLOTH_IN_EVERY_WORLD(ClingInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::cling_test

@@ -8,9 +8,7 @@
 
 #include <string>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::collision_audit_of_bodies_test {
 
 namespace {
 
@@ -300,4 +298,4 @@ TEST(CollisionAuditTier, ExactIsRefusedWhereItIsNotBuilt) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::collision_audit_of_bodies_test

@@ -11,7 +11,7 @@
 #include <limits>
 #include <set>
 
-namespace wetcloth_test {
+namespace wetcloth_test::collision_audit_test {
 namespace {
 
 using wetcloth::AuditTotals;
@@ -292,4 +292,4 @@ TEST_P(AuditInEveryWorld, AFoldedStripThatIsPulledThroughItself) {
 WETCLOTH_IN_EVERY_WORLD(AuditInEveryWorld);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::collision_audit_test

@@ -3,12 +3,9 @@
 
 #include "tests/support/ContactScene.h"
 
-namespace wetcloth_test {
+namespace wetcloth_test::contact_wetting_of_cloths_test {
 namespace {
 
-using core::RigidBody;
-using core::sameBits;
-using core::stateOf;
 using wetcloth::ContactWetting;
 
 /// Two sheets on a floor, one over the other, both WetCloths; the lower one is added first.
@@ -229,4 +226,4 @@ TEST_P(ContactWettingOfCloths, GoesOnAfterACut) {
 WETCLOTH_IN_EVERY_WORLD(ContactWettingOfCloths);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::contact_wetting_of_cloths_test

@@ -3,13 +3,9 @@
 
 #include "tests/support/ContactScene.h"
 
-namespace wetcloth_test {
+namespace wetcloth_test::contact_wetting_test {
 namespace {
 
-using core::addCall;
-using core::RigidBody;
-using core::sameBits;
-using core::stateOf;
 using wetcloth::ContactWetting;
 using wetcloth::equalisingFlow;
 using wetcloth::filmUptake;
@@ -296,4 +292,4 @@ TEST(ContactWettingOnABody, SaysWhyItCannotWork) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::contact_wetting_test

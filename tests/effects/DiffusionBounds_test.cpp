@@ -3,7 +3,7 @@
 
 #include "tests/support/TransportScene.h"
 
-namespace wetcloth_test {
+namespace wetcloth_test::diffusion_bounds_test {
 
 using namespace transport;
 
@@ -196,4 +196,4 @@ TEST(DiffusionBounds, APinnedNodeHoldsWaterToo) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::diffusion_bounds_test

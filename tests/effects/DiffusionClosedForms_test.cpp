@@ -4,7 +4,7 @@
 #include "bullet_wetcloth/numerics/DiffusionSolver.h"
 #include "tests/support/TransportScene.h"
 
-namespace wetcloth_test {
+namespace wetcloth_test::diffusion_closed_forms_test {
 
 using namespace transport;
 
@@ -246,4 +246,4 @@ TEST(DiffusionClosedForms, AFrontAdvancesWithTheRootOfTime) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::diffusion_closed_forms_test

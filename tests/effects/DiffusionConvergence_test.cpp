@@ -4,7 +4,7 @@
 
 #include "tests/support/TransportScene.h"
 
-namespace wetcloth_test {
+namespace wetcloth_test::diffusion_convergence_test {
 
 using namespace transport;
 
@@ -157,4 +157,4 @@ TEST(DiffusionConvergence, ABentClothWicksLikeAFlatOne) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::diffusion_convergence_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace wetcloth_test {
+namespace wetcloth_test::diffusion_upkeep_test {
 
 using namespace transport;
 
@@ -50,7 +50,7 @@ TEST(DiffusionUpkeep, RefusesBadParametersByName) {
 TEST(DiffusionUpkeep, ARopeHasNoTrianglesToSpreadOver) {
   ClothScene scene(WorldKind::softRigid, btVector3(0, 0, 0), hangingRope(5, 0.1, 0.01));
   EXPECT_EQ(rejection([&] { scene.cloth().add<Diffusion>(); }),
-            "Diffusion: the body has no faces, and water spreads over triangles: a rope has none");
+            "Diffusion: body.m_faces.size() = 0: must be at least 1: it works on triangles, and a rope has none");
 }
 
 TEST(DiffusionUpkeep, FactorsOnceAndThenSolvesOncePerStep) {
@@ -191,4 +191,4 @@ TEST(DiffusionWarp, IsOfAnyLength) {
 WETCLOTH_IN_EVERY_WORLD(DiffusionInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::diffusion_upkeep_test

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::dripping_drops_test {
 namespace {
 
 using wetcloth::Drip;
@@ -26,7 +26,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A saturated 5 x 5 cloth that hangs from its top edge; only our part of the step runs.
 struct Hung {
   explicit Hung(Dripping::Parameters parameters = {})
-      : scene(WorldKind::softRigid, kEarthGravity, core::hangingPatch(5), Fabric::cotton(), Hook::manual) {
+      : scene(WorldKind::softRigid, kEarthGravity, hangingPatch(5), Fabric::cotton(), Hook::manual) {
     parameters.onDrip = [this](const Drip& drip) { drips.push_back(drip); };
     effect = &scene.cloth().add<Dripping>(parameters);
     scene.cloth().setSaturation(1);
@@ -131,7 +131,7 @@ TEST(DrippingDrops, SayWhenWhereHowFastAndWhence) {
 }
 
 TEST(DrippingDrops, AreCountedWhenNobodyListens) {
-  ClothScene scene(WorldKind::softRigid, kEarthGravity, core::hangingPatch(5), Fabric::cotton(), Hook::manual);
+  ClothScene scene(WorldKind::softRigid, kEarthGravity, hangingPatch(5), Fabric::cotton(), Hook::manual);
   Dripping& effect = scene.cloth().add<Dripping>(dropsOf(0));
   scene.cloth().setSaturation(1);
   scene.preTick(1);
@@ -139,7 +139,7 @@ TEST(DrippingDrops, AreCountedWhenNobodyListens) {
 }
 
 TEST(DrippingDrops, AListenerThatThrowsTakesTheEffectAway) {
-  ClothScene scene(WorldKind::softRigid, kEarthGravity, core::hangingPatch(5));
+  ClothScene scene(WorldKind::softRigid, kEarthGravity, hangingPatch(5));
   std::vector<std::string> messages;
   scene.wet().setLog([&](const std::string& message) { messages.push_back(message); });
   Dripping::Parameters parameters = dropsOf(0);
@@ -225,14 +225,14 @@ TEST(DrippingIdles, UntilItsHoldingCapacityChanges) {
 class DrippingDropsInWorld : public InEveryWorld {};
 
 TEST_P(DrippingDropsInWorld, MayBecomeRigidBodies) {
-  ClothScene scene(GetParam(), kEarthGravity, core::hangingPatch(3));
+  ClothScene scene(GetParam(), kEarthGravity, hangingPatch(3));
   scene.addBulletSpringsForStep();
-  std::vector<std::unique_ptr<core::RigidBody>> drops;
+  std::vector<std::unique_ptr<RigidBody>> drops;
   Dripping::Parameters parameters = dropsOf(1e-3);
   parameters.onDrip = [&](const Drip& drip) {
     const btVector3 below = drip.position - btVector3(0, 1, 0);  // clear of the cloth
-    drops.push_back(std::make_unique<core::RigidBody>(scene.bullet(), std::make_unique<btSphereShape>(btScalar(0.01)),
-                                                      btScalar(drip.mass), below));
+    drops.push_back(std::make_unique<RigidBody>(scene.bullet(), std::make_unique<btSphereShape>(btScalar(0.01)),
+                                                btScalar(drip.mass), below));
     drops.back()->body().setLinearVelocity(drip.velocity);
   };
   scene.cloth().add<Dripping>(parameters);
@@ -240,11 +240,11 @@ TEST_P(DrippingDropsInWorld, MayBecomeRigidBodies) {
   scene.step(480);
   ASSERT_GT(drops.size(), 3u);
   EXPECT_LT(drops.front()->body().getWorldTransform().getOrigin().y(), -2) << "it falls";
-  EXPECT_TRUE(core::isFinite(scene.body()));
+  EXPECT_TRUE(isFinite(scene.body()));
 }
 
 TEST_P(DrippingDropsInWorld, AreNotLostWhenTheClothIsCut) {
-  ClothScene scene(GetParam(), kEarthGravity, core::hangingPatch(5));
+  ClothScene scene(GetParam(), kEarthGravity, hangingPatch(5));
   scene.addBulletSpringsForStep();
   scene.wet().setLog({});
   double reported = 0;
@@ -291,4 +291,4 @@ TEST(DrippingBadInput, ABodyWithoutTrianglesIsRefused) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::dripping_drops_test

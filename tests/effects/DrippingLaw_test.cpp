@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::dripping_law_test {
 namespace {
 
 using wetcloth::Dripping;
@@ -183,7 +183,7 @@ ClothScene::Builder built(const wetcloth::ClothPatch& patch, const std::function
 const std::vector<int> kBottomRow = {0, 1, 2, 3, 4};
 
 TEST(DrippingLowPoint, AllNodesOfALevelHemDrip) {
-  ClothScene scene(WorldKind::softRigid, kEarthGravity, core::hangingPatch(5), Fabric::cotton(), Hook::manual);
+  ClothScene scene(WorldKind::softRigid, kEarthGravity, hangingPatch(5), Fabric::cotton(), Hook::manual);
   EXPECT_EQ(dripping(scene), kBottomRow);
 }
 
@@ -191,8 +191,7 @@ TEST(DrippingLowPoint, RoundingDoesNotDecide) {
   const auto shake = [](btSoftBody& body) {
     for (int i = 0; i < 5; ++i) body.m_nodes[i].m_x.setY(btScalar(i % 2 == 0 ? 1e-6 : -1e-6));
   };
-  ClothScene scene(WorldKind::softRigid, kEarthGravity, built(core::hangingPatch(5), shake), Fabric::cotton(),
-                   Hook::manual);
+  ClothScene scene(WorldKind::softRigid, kEarthGravity, built(hangingPatch(5), shake), Fabric::cotton(), Hook::manual);
   EXPECT_EQ(dripping(scene), kBottomRow);
 }
 
@@ -200,8 +199,7 @@ TEST(DrippingLowPoint, ASlantingHemDripsAtItsLowestNode) {
   const auto slant = [](btSoftBody& body) {
     for (int i = 0; i < 5; ++i) body.m_nodes[i].m_x.setY(btScalar(0.02 * i));  // a slope of 0.08
   };
-  ClothScene scene(WorldKind::softRigid, kEarthGravity, built(core::hangingPatch(5), slant), Fabric::cotton(),
-                   Hook::manual);
+  ClothScene scene(WorldKind::softRigid, kEarthGravity, built(hangingPatch(5), slant), Fabric::cotton(), Hook::manual);
   EXPECT_EQ(dripping(scene), std::vector<int>{0});
 }
 
@@ -215,7 +213,7 @@ TEST(DrippingLowPoint, ASaggingClothDripsAtItsPocket) {
 
 TEST(DrippingLowPoint, GravityMayPointAnywhere) {
   const btVector3 sideways(5, 0, 0);
-  ClothScene scene(WorldKind::softRigid, sideways, core::hangingPatch(3), Fabric::cotton(), Hook::manual);
+  ClothScene scene(WorldKind::softRigid, sideways, hangingPatch(3), Fabric::cotton(), Hook::manual);
   EXPECT_EQ(dripping(scene), (std::vector<int>{2, 5, 8}));
 }
 
@@ -227,12 +225,12 @@ TEST(DrippingLowPoint, ALevelClothDripsEverywhere) {
 TEST(DrippingLowPoint, ALargerToleranceMakesMoreLowPoints) {
   Dripping::Parameters parameters;
   parameters.slopeTolerance = 1;
-  ClothScene scene(WorldKind::softRigid, kEarthGravity, core::hangingPatch(4), Fabric::cotton(), Hook::manual);
+  ClothScene scene(WorldKind::softRigid, kEarthGravity, hangingPatch(4), Fabric::cotton(), Hook::manual);
   EXPECT_EQ(dripping(scene, parameters).size(), 16u);
 }
 
 TEST(DrippingLowPoint, WithoutGravityNothingDrips) {
-  ClothScene scene(WorldKind::softRigid, btVector3(0, 0, 0), core::hangingPatch(4), Fabric::cotton(), Hook::manual);
+  ClothScene scene(WorldKind::softRigid, btVector3(0, 0, 0), hangingPatch(4), Fabric::cotton(), Hook::manual);
   EXPECT_TRUE(dripping(scene).empty());
 }
 
@@ -242,7 +240,7 @@ class DrippingInWorld : public InEveryWorld {};
 
 TEST_P(DrippingInWorld, TheHemOfAHungClothFollowsTheClosedForm) {
   // The hem on a rail: where springs let it swing for a while after the start it is no low point all the time.
-  wetcloth::ClothPatch patch = core::hangingPatch(5);
+  wetcloth::ClothPatch patch = hangingPatch(5);
   patch.pinnedEdges.push_back(wetcloth::ClothPatch::Edge::bottom);
   ClothScene scene(GetParam(), kEarthGravity, patch);
   scene.addBulletSpringsForStep();
@@ -257,4 +255,4 @@ TEST_P(DrippingInWorld, TheHemOfAHungClothFollowsTheClosedForm) {
 WETCLOTH_IN_EVERY_WORLD(DrippingInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::dripping_law_test

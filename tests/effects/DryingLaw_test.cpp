@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::drying_law_test {
 namespace {
 
 using wetcloth::dryingStep;
@@ -96,4 +96,4 @@ TEST(DryingTime, OfSpecialCases) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::drying_law_test

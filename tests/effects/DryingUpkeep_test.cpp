@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::drying_upkeep_test {
 namespace {
 
 using wetcloth::Drying;
@@ -91,7 +91,7 @@ TEST(DryingUpkeep, ANodeWithAVelocityThatIsNotFiniteKeepsItsWater) {
 class DryingUpkeepInWorld : public InEveryWorld {};
 
 TEST_P(DryingUpkeepInWorld, GoesOnWhenTheClothIsCut) {
-  ClothScene scene(GetParam(), kEarthGravity, core::hangingPatch(5));
+  ClothScene scene(GetParam(), kEarthGravity, hangingPatch(5));
   scene.addBulletSpringsForStep();
   scene.wet().setLog({});
   scene.cloth().add<Drying>({30, 0.1, btVector3(4, 0, 0)});
@@ -105,7 +105,7 @@ TEST_P(DryingUpkeepInWorld, GoesOnWhenTheClothIsCut) {
   const wetcloth::Ledger ledger = scene.cloth().ledger();
   EXPECT_GT(ledger.evaporated, before);
   EXPECT_LE(std::fabs(ledger.imbalance()), 1e-12 * ledger.initial);
-  EXPECT_TRUE(core::isFinite(body));
+  EXPECT_TRUE(isFinite(body));
 }
 
 WETCLOTH_IN_EVERY_WORLD(DryingUpkeepInWorld);
@@ -160,4 +160,4 @@ TEST(DryingBadInput, ABodyThatDoesNotFitIsRefused) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::drying_upkeep_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::drying_test {
 namespace {
 
 using wetcloth::Drying;
@@ -200,4 +200,4 @@ TEST_P(DryingInWorld, OfAPinnedClothFollowsTheClosedForm) {
 WETCLOTH_IN_EVERY_WORLD(DryingInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::drying_test

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::hooke_springs_dynamics_test {
 namespace {
 
 using wetcloth::Hook;
@@ -225,4 +225,4 @@ TEST_P(HookeSpringsDynamics, PeriodOfAMassOnASpringApproachesTheClosedForm) {
 WETCLOTH_IN_EVERY_WORLD(HookeSpringsDynamics);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::hooke_springs_dynamics_test

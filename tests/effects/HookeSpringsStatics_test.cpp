@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::hooke_springs_statics_test {
 namespace {
 
 using wetcloth::HookeSprings;
@@ -253,4 +253,4 @@ INSTANTIATE_TEST_SUITE_P(, BulletsOwnSprings, testing::Values(WorldKind::deforma
                          [](const auto& world) { return std::string(nameOf(world.param)); });
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::hooke_springs_statics_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::hooke_springs_upkeep_test {
 namespace {
 
 using wetcloth::HookeSprings;
@@ -178,4 +178,4 @@ TEST(HookeSpringsInput, BodyWithoutLinksIsRefused) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::hooke_springs_upkeep_test

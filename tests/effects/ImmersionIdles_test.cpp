@@ -4,9 +4,7 @@
 #include "bullet_wetcloth/effects/Immersion.h"
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::immersion_idles_test {
 
 namespace {
 
@@ -151,4 +149,4 @@ TEST_P(ImmersionInWorld, GoesOnWhenTheBodyIsCutEvenIfThereIsNoWaterAtThatMoment)
 WETCLOTH_IN_EVERY_WORLD(ImmersionInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::immersion_idles_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::immersion_test {
 namespace {
 
 using wetcloth::Fabric;
@@ -231,4 +231,4 @@ TEST(ImmersionBadInput, NamesTheFieldAndChangesNothing) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::immersion_test

@@ -6,9 +6,7 @@
 
 #include <limits>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::rain_in_world_test {
 
 namespace {
 
@@ -111,4 +109,4 @@ TEST_P(RainInWorld, WritesNoNumberThatIsNone) {
 WETCLOTH_IN_EVERY_WORLD(RainInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::rain_in_world_test

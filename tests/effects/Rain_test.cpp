@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::rain_test {
 namespace {
 
 using wetcloth::Fabric;
@@ -262,4 +262,4 @@ TEST(RainBadInput, ARopeCatchesNone) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::rain_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace wetcloth_test {
+namespace wetcloth_test::seepage_upkeep_test {
 
 using namespace transport;
 
@@ -68,7 +68,7 @@ TEST(SeepageUpkeep, RefusesBadParametersByName) {
   EXPECT_TRUE(scene.cloth().effects().empty());
   ClothScene rope(WorldKind::softRigid, btVector3(0, 0, 0), hangingRope(5, 0.1, 0.01));
   EXPECT_EQ(rejection([&] { rope.cloth().add<Seepage>(); }),
-            "Seepage: the body has no faces, and water seeps along triangles: a rope has none");
+            "Seepage: body.m_faces.size() = 0: must be at least 1: it works on triangles, and a rope has none");
 }
 
 TEST(SeepageUpkeep, IdlesWhenDrainedAndGoesOnWhenTheClothTurns) {
@@ -99,4 +99,4 @@ TEST(SeepageUpkeep, MakesAsManySubstepsAsItsFastestWaveAsksFor) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::seepage_upkeep_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/TransportScene.h"
 
-namespace wetcloth_test {
+namespace wetcloth_test::seepage_test {
 
 using namespace transport;
 
@@ -239,4 +239,4 @@ TEST(Seepage, HoldsOnHardMeshesForAnyStep) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::seepage_test

@@ -8,9 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::soak_soften_shrink_test {
 
 namespace {
 
@@ -153,15 +151,15 @@ TEST_P(SoakSoftenShrink, PatchThereAndBack) {
   // What is left of the swinging after 1600 steps, 20 times less than what the water did.
   EXPECT_LT(largestDifference(stateOf(scene.body()), start), 5e-4);
   const long long swollen = swelling.linksVisited();
-  const long long refreshes = cloth.masses().linkRefreshes();
+  const long long refreshes = cloth.linkConstants().refreshes();
   const long long damped = stiffness.linksVisited();
   scene.bullet.step(10);
   EXPECT_EQ(swelling.linksVisited(), swollen);
-  EXPECT_EQ(cloth.masses().linkRefreshes(), refreshes);
+  EXPECT_EQ(cloth.linkConstants().refreshes(), refreshes);
   EXPECT_EQ(stiffness.linksVisited(), damped + 10 * scene.body().m_links.size()) << "damping alone";
 }
 
 WETCLOTH_IN_EVERY_WORLD(SoakSoftenShrink);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::soak_soften_shrink_test

@@ -9,9 +9,7 @@
 #include <limits>
 #include <string>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::splash_in_world_test {
 
 namespace {
 
@@ -180,4 +178,4 @@ TEST_P(SplashInWorld, WritesNoNumberThatIsNone) {
 WETCLOTH_IN_EVERY_WORLD(SplashInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::splash_in_world_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::splash_test {
 namespace {
 
 using wetcloth::Fabric;
@@ -253,4 +253,4 @@ TEST(SplashIdles, WithoutFlux) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::splash_test

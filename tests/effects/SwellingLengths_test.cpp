@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::swelling_lengths_test {
 namespace {
 
 using wetcloth::Hook;
@@ -232,4 +232,4 @@ TEST_P(SwellingLengths, CostNothingOnceTheWaterRests) {
 WETCLOTH_IN_EVERY_WORLD(SwellingLengths);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::swelling_lengths_test

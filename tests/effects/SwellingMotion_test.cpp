@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace wetcloth_test {
+namespace wetcloth_test::swelling_motion_test {
 namespace {
 
 using wetcloth::HookeSprings;
@@ -131,4 +131,4 @@ TEST_P(SwellingTension, OfAChainBetweenPinsIsItsStiffnessTimesTheShrinkage) {
 WETCLOTH_IN_EVERY_WORLD(SwellingTension);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::swelling_motion_test

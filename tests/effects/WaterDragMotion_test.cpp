@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::water_drag_motion_test {
 namespace {
 
 using wetcloth::Fabric;
@@ -116,8 +116,8 @@ TEST_P(WaterDragMotionInWorld, ATorrentOfTwoHundredMetresPerSecondIsStable) {
     scene.cloth().add<WaterDrag>(deepWater(btVector3(0, 200, 0)));
     for (int step = 0; step < 60; ++step) {
       scene.step(1, dt);
-      ASSERT_TRUE(core::isFinite(scene.body())) << step;
-      ASSERT_LE(core::largestSpeed(scene.body()), 200 * (1 + 1e-3)) << step;
+      ASSERT_TRUE(isFinite(scene.body())) << step;
+      ASSERT_LE(largestSpeed(scene.body()), 200 * (1 + 1e-3)) << step;
     }
   }
 }
@@ -125,7 +125,7 @@ TEST_P(WaterDragMotionInWorld, ATorrentOfTwoHundredMetresPerSecondIsStable) {
 TEST_P(WaterDragMotionInWorld, AClothCutHalfInTheWaterGoesOn) {
   WaterDrag::Parameters parameters = deepWater(btVector3(0, 0, 1));
   parameters.surface->offset = -0.4;
-  ClothScene scene(GetParam(), kEarthGravity, core::hangingPatch(6));
+  ClothScene scene(GetParam(), kEarthGravity, hangingPatch(6));
   scene.addBulletSpringsForStep();
   scene.wet().setLog({});
   scene.cloth().add<WaterDrag>(parameters);
@@ -135,7 +135,7 @@ TEST_P(WaterDragMotionInWorld, AClothCutHalfInTheWaterGoesOn) {
   ASSERT_TRUE(body.cutLink(body.m_faces[0].m_n[0], body.m_faces[0].m_n[1], btScalar(0.5)));
   scene.step(60);
   EXPECT_EQ(scene.cloth().effects().size(), 1u);
-  EXPECT_TRUE(core::isFinite(body));
+  EXPECT_TRUE(isFinite(body));
 }
 
 WETCLOTH_IN_EVERY_WORLD(WaterDragMotionInWorld);
@@ -207,7 +207,7 @@ class WaterDragSleep : public testing::TestWithParam<WorldKind> {};
 
 TEST_P(WaterDragSleep, IsEndedByACurrentALevelThatChangesOrDrainedWater) {
   for (const char* change : {"current", "level", "drained"}) {
-    core::CoreScene scene(GetParam(), core::sailPatch(4), kNoGravity);
+    CoreScene scene(GetParam(), sailPatch(4), kNoGravity);
     wetcloth::WetClothWorld wet(scene.world());
     WaterDrag::Parameters parameters = deepWater();
     parameters.surface->offset = -0.5;
@@ -228,7 +228,7 @@ TEST_P(WaterDragSleep, IsEndedByACurrentALevelThatChangesOrDrainedWater) {
 }
 
 TEST_P(WaterDragSleep, IsNotDisturbedByWaterFarBelow) {
-  core::CoreScene scene(GetParam(), core::sailPatch(4), kNoGravity);
+  CoreScene scene(GetParam(), sailPatch(4), kNoGravity);
   wetcloth::WetClothWorld wet(scene.world());
   WaterDrag::Parameters parameters = deepWater();
   parameters.surface->offset = 3;
@@ -250,4 +250,4 @@ INSTANTIATE_TEST_SUITE_P(, WaterDragSleep, testing::Values(WorldKind::deformable
                          [](const auto& test) { return std::string(nameOf(test.param)); });
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::water_drag_motion_test

@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::water_drag_test {
 namespace {
 
 using wetcloth::displacedVolume;
@@ -150,7 +150,7 @@ TEST(WaterDragResistance, PinnedNodesDoNotMove) {
 // --- the waterline ----------------------------------------------------------------------------------------------
 
 TEST(WaterDragWaterline, OnlyWhatIsBelowFeelsTheWater) {
-  wetcloth::ClothPatch patch = core::sailPatch(9);  // rows at y = 0, 1/8 .. 1
+  wetcloth::ClothPatch patch = sailPatch(9);  // rows at y = 0, 1/8 .. 1
   patch.arealDensity = 1e6;
   ClothScene scene(WorldKind::softRigid, kNoGravity, patch, Fabric::cotton(), Hook::manual);
   WaterDrag& effect = scene.cloth().add<WaterDrag>(waterUpTo(0.5 + 1.0 / 16, btVector3(0, 0, 2)));
@@ -168,10 +168,10 @@ TEST(WaterDragWaterline, OnlyWhatIsBelowFeelsTheWater) {
 
 TEST(WaterDragWaterline, ANormalOfAnyLengthIsTheSameSurface) {
   WaterDrag::Parameters parameters = waterUpTo(0.3, btVector3(0, 0, 2));
-  const btVector3 expected = forceOn(core::sailPatch(9), parameters);
+  const btVector3 expected = forceOn(sailPatch(9), parameters);
   parameters.surface->normal *= 4;
   parameters.surface->offset *= 4;
-  EXPECT_EQ(forceOn(core::sailPatch(9), parameters), expected);
+  EXPECT_EQ(forceOn(sailPatch(9), parameters), expected);
 }
 
 TEST(WaterDragWaterline, AClothAboveTheWaterCostsNoTrianglesAndFarAboveNoNodes) {
@@ -269,4 +269,4 @@ TEST(WaterDragBadInput, ABodyWithoutTrianglesIsRefused) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::water_drag_test

@@ -3,12 +3,9 @@
 
 #include "tests/support/ContactScene.h"
 
-namespace wetcloth_test {
+namespace wetcloth_test::wet_friction_test {
 namespace {
 
-using core::RigidBody;
-using core::sameBits;
-using core::stateOf;
 using wetcloth::WetFriction;
 using wetcloth::WetnessCurve;
 
@@ -207,7 +204,7 @@ TEST(WetFrictionBetweenCloths, IsTheLargerOfTheTwo) {
       scene.cloth().setSaturation(0.5);
       second.setSaturation(0.5);
       int found = 0;
-      core::addCall(
+      addCall(
           second,
           [&](wetcloth::WetCloth&, const wetcloth::Step&) {
             for (btSoftBody* body : {&scene.body(), upper.get()}) {
@@ -264,4 +261,4 @@ TEST(WetFrictionOnABody, SaysWhyItCannotWork) {
 WETCLOTH_IN_EVERY_WORLD(WetFrictionInWorld);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::wet_friction_test

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::wet_stiffness_damping_test {
 namespace {
 
 using wetcloth::Fabric;
@@ -192,4 +192,4 @@ TEST_P(WetStiffnessDamping, WritesNothingThatIsNotFinite) {
 WETCLOTH_IN_EVERY_WORLD(WetStiffnessDamping);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::wet_stiffness_damping_test

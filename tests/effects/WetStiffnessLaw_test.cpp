@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace wetcloth_test {
+namespace wetcloth_test::wet_stiffness_law_test {
 namespace {
 
 using wetcloth::dampingImpulse;
@@ -120,4 +120,4 @@ INSTANTIATE_TEST_SUITE_P(, WetStiffnessInDeformable,
                          [](const auto& world) { return std::string(nameOf(world.param)); });
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::wet_stiffness_law_test

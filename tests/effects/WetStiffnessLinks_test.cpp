@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::wet_stiffness_links_test {
 namespace {
 
 using wetcloth::WetStiffness;
@@ -184,24 +184,24 @@ TEST_P(WetStiffnessLinks, CostNothingOnceTheWaterRests) {
   EXPECT_LE(effect.linksVisited(), 502 * links);
   EXPECT_GE(effect.linksVisited(), 100 * links);
   // Constants are written with the masses, not once more.
-  EXPECT_LE(scene.cloth().masses().linkRefreshes(), scene.cloth().masses().commits() + 3);
+  EXPECT_LE(scene.cloth().linkConstants().refreshes(), scene.cloth().masses().commits() + 3);
   scene.step(1300);
   ASSERT_NEAR(scene.cloth().meanSaturation(), 1, 1e-12);
   const long long visited = effect.linksVisited();
-  const long long refreshes = scene.cloth().masses().linkRefreshes();
+  const long long refreshes = scene.cloth().linkConstants().refreshes();
   scene.step(100);
   EXPECT_EQ(effect.linksVisited(), visited);
-  EXPECT_EQ(scene.cloth().masses().linkRefreshes(), refreshes);
+  EXPECT_EQ(scene.cloth().linkConstants().refreshes(), refreshes);
 }
 
 TEST_P(WetStiffnessLinks, AreLeftAloneByFactorsOfOne) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   WetStiffness& effect = scene.cloth().add<WetStiffness>({1, 1});
   scene.cloth().setSaturation(1);
-  const long long refreshes = scene.cloth().masses().linkRefreshes();
+  const long long refreshes = scene.cloth().linkConstants().refreshes();
   scene.step(20);
   EXPECT_EQ(effect.linksVisited(), 0);
-  EXPECT_EQ(scene.cloth().masses().linkRefreshes(), refreshes);
+  EXPECT_EQ(scene.cloth().linkConstants().refreshes(), refreshes);
 }
 
 // At rest a link of stiffness k has its error d + g dt^2 before, and d after n iterations: d = (d + g dt^2) (1 - k)^n.
@@ -263,4 +263,4 @@ INSTANTIATE_TEST_SUITE_P(, WetStiffnessLinks, testing::Values(WorldKind::softRig
                          [](const auto& world) { return std::string(nameOf(world.param)); });
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::wet_stiffness_links_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::wet_stiffness_springs_test {
 namespace {
 
 using wetcloth::HookeSprings;
@@ -173,7 +173,7 @@ TEST_P(WetStiffnessSprings, GoOnAfterACut) {
   for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
     EXPECT_TRUE(std::isfinite(double(scene.node(i).m_x.length2()))) << i;
   }
-  EXPECT_EQ(int(scene.cloth().masses().linkStiffness().size()), scene.body().m_links.size());
+  EXPECT_EQ(int(scene.cloth().linkConstants().stiffness().size()), scene.body().m_links.size());
 }
 
 WETCLOTH_IN_EVERY_WORLD(WetStiffnessSprings);
@@ -199,4 +199,4 @@ INSTANTIATE_TEST_SUITE_P(, WetStiffnessOrder, testing::Values(WorldKind::softRig
                          [](const auto& world) { return std::string(nameOf(world.param)); });
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::wet_stiffness_springs_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::wind_field_test {
 namespace {
 
 using wetcloth::Fabric;
@@ -141,4 +141,4 @@ TEST(WindInput, TrianglesWithoutAreaDoNoHarm) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::wind_field_test

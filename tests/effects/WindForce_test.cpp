@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace wetcloth_test {
+namespace wetcloth_test::wind_force_test {
 namespace {
 
 using wetcloth::linearWindForce;
@@ -175,4 +175,4 @@ TEST(WindForce, TriangleWithoutAreaFeelsNothing) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::wind_force_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace wetcloth_test {
+namespace wetcloth_test::wind_motion_test {
 namespace {
 
 using wetcloth::Fabric;
@@ -248,4 +248,4 @@ TEST(WindIntegration, NoAirNoForce) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::wind_motion_test

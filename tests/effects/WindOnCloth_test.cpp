@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::wind_on_cloth_test {
 namespace {
 
 using wetcloth::ClothPatch;
@@ -224,4 +224,4 @@ TEST(WindOnCloth, OnlyTheRelativeSpeedCounts) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::wind_on_cloth_test

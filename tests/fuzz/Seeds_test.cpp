@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::seeds_test {
 namespace {
 
 std::vector<std::string> seedsOf(const std::string& target) {
@@ -61,4 +61,4 @@ TEST(FuzzSeeds, OfTheStateAsItIs) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::seeds_test

@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::light_node_in_astorm_test {
 
 namespace {
 
@@ -184,4 +182,4 @@ TEST_P(LightNodeInAStorm, AStepOfTenSecondsStaysFinite) {
 WETCLOTH_IN_EVERY_WORLD(LightNodeInAStorm);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::light_node_in_astorm_test

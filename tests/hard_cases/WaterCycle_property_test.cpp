@@ -8,9 +8,7 @@
 
 #include <sstream>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::water_cycle_property_test {
 
 namespace {
 
@@ -82,9 +80,9 @@ std::unique_ptr<btSoftBody> anySoup(btSoftBodyWorldInfo& info) {
   return body;
 }
 
-WaterCycle::Choice anyEffects() {
-  WaterCycle::Choice choice;
-  for (const std::string& name : WaterCycle::names()) {
+water_cycle::Choice anyEffects() {
+  water_cycle::Choice choice;
+  for (const std::string& name : water_cycle::names()) {
     if (*rc::gen::inRange(0, 2) == 0) choice.names.push_back(name);
   }
   choice.number = [](double low, double high) { return anyMagnitude(low, high); };
@@ -108,20 +106,20 @@ TEST(WaterCycleProperty, AnyMeshAnyEffectsAnyStep) {
     const WorldKind kind = *rc::gen::element(WorldKind::softRigid, WorldKind::deformable);
     const bool isPatch = *rc::gen::inRange(0, 2) == 0;
     CoreScene scene(kind, [&](btSoftBodyWorldInfo& info) { return isPatch ? anyPatch(info) : anySoup(info); });
-    WaterCycle::giveWater(scene.bullet.info(), btScalar(anyBetween(-0.5, 0.5)));
-    WaterCycle::letTouch(scene.bullet, scene.body());
+    water_cycle::giveWater(scene.bullet.info(), btScalar(anyBetween(-0.5, 0.5)));
+    water_cycle::letTouch(scene.bullet, scene.body());
     wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
     wet.setLog({});
     wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(anyMagnitude(0.05, 100), anyMagnitude(0.01, 1000)));
     cloth.setHeld(anyWater(cloth));
-    WaterCycle::add(cloth, anyEffects());
+    water_cycle::add(cloth, anyEffects());
     for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
       btSoftBody::Node& node = scene.body().m_nodes[i];
       if (node.m_im > 0) node.m_v = node.m_vn = anyVector(3);
     }
     for (int step = 0; step < 12; ++step) {
       wet.preTick(btScalar(anyMagnitude(1e-6, 1e3)));
-      const std::string fault = WaterCycle::faultOf(cloth);
+      const std::string fault = water_cycle::faultOf(cloth);
       if (!fault.empty()) RC_FAIL("step " + std::to_string(step) + ": " + fault);
     }
   });
@@ -137,7 +135,7 @@ TEST(WaterCycleProperty, WaterThatMovesWithTheClothChangesNoVelocity) {
     wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
     wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(anyMagnitude(0.05, 100), anyMagnitude(0.01, 1000)));
     cloth.setHeld(anyWater(cloth));
-    const btVector3 velocity = WaterCycle::nonZero(anyVector(5));
+    const btVector3 velocity = water_cycle::nonZero(anyVector(5));
     for (int i = 0; i < scene.body().m_nodes.size(); ++i) scene.body().m_nodes[i].m_v = velocity;
     wetcloth::Absorption::Parameters absorption;
     absorption.exposure = anyBetween(0, 1);
@@ -145,9 +143,9 @@ TEST(WaterCycleProperty, WaterThatMovesWithTheClothChangesNoVelocity) {
     cloth.add<wetcloth::Absorption>(absorption);
     cloth.add<wetcloth::Rain>({velocity, anyMagnitude(1e-4, 100), double(velocity.length())});
     cloth.add<wetcloth::Splash>({wetcloth::Splash::Sphere{btVector3(0, 0, 0), 1}, velocity, anyMagnitude(1e-4, 100)});
-    WaterCycle::Choice choice = anyEffects();
+    water_cycle::Choice choice = anyEffects();
     choice.names = {"diffusion", "seepage", "dripping", "drying"};
-    WaterCycle::add(cloth, choice);
+    water_cycle::add(cloth, choice);
     for (int step = 0; step < 12; ++step) wet.preTick(btScalar(anyMagnitude(1e-6, 1e3)));
     for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
       // The rain's direction is rounded, and a node may take its mass many times over in a step: some ten roundings.
@@ -164,23 +162,23 @@ TEST(WaterCycleProperty, AnyEffectsInAnyWorld) {
                                              WorldKind::deformableImplicit);
     CoreScene scene(kind, hangingPatch(*rc::gen::inRange(3, 7)));
     RigidBody box(scene.bullet, std::make_unique<btBoxShape>(btVector3(2, btScalar(0.2), 2)), 0, btVector3(0, -1, 0));
-    WaterCycle::giveWater(scene.bullet.info(), btScalar(anyBetween(-0.5, 0.5)));
-    WaterCycle::letTouch(scene.bullet, scene.body());
+    water_cycle::giveWater(scene.bullet.info(), btScalar(anyBetween(-0.5, 0.5)));
+    water_cycle::letTouch(scene.bullet, scene.body());
     wetcloth::WetClothWorld wet(scene.world());
     wet.setLog({});
     wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(anyMagnitude(0.3, 5), anyMagnitude(0.1, 10)));
     cloth.setHeld(anyWater(cloth));
-    WaterCycle::Choice choice = anyEffects();
+    water_cycle::Choice choice = anyEffects();
     choice.names.push_back("hooke_springs");  // the deformable world has no other
-    WaterCycle::add(cloth, choice);
+    water_cycle::add(cloth, choice);
     const btScalar dt = btScalar(anyMagnitude(1e-3, 1.0 / 60));
     for (int step = 0; step < 40; ++step) {
       scene.bullet.step(1, dt);
-      const std::string fault = WaterCycle::faultOf(cloth);
+      const std::string fault = water_cycle::faultOf(cloth);
       if (!fault.empty()) RC_FAIL("step " + std::to_string(step) + ": " + fault);
     }
   });
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::water_cycle_property_test

@@ -6,16 +6,14 @@
 
 #include <random>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::water_ledger_test {
 
 namespace {
 
 /// All effects with ordinary parameters: what comes in is about what goes out, and nothing settles.
-WaterCycle::Choice everything(std::mt19937& random) {
-  WaterCycle::Choice choice;
-  choice.names = WaterCycle::names();
+water_cycle::Choice everything(std::mt19937& random) {
+  water_cycle::Choice choice;
+  choice.names = water_cycle::names();
   choice.number = [](double low, double high) { return std::sqrt(low * high); };
   choice.fraction = [&random] { return std::uniform_real_distribution<double>(0.1, 0.9)(random); };
   choice.vector = [&random](double size) {
@@ -30,16 +28,16 @@ class WaterLedger : public InEveryWorld {};
 TEST_P(WaterLedger, ClosesAfterAHundredThousandStepsOfEverything) {
   std::mt19937 random(5);
   CoreScene scene(GetParam(), hangingPatch(4));
-  WaterCycle::giveWater(scene.bullet.info(), btScalar(0.4));
-  WaterCycle::letTouch(scene.bullet, scene.body());
+  water_cycle::giveWater(scene.bullet.info(), btScalar(0.4));
+  water_cycle::letTouch(scene.bullet, scene.body());
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(0.84, 9));
   cloth.setSaturation(0.5);
-  WaterCycle::add(cloth, everything(random));
+  water_cycle::add(cloth, everything(random));
   for (int step = 1; step <= 100000; ++step) {
     wet.preTick(btScalar(1) / 240);
     if (step % 10000 != 0) continue;
-    ASSERT_EQ(WaterCycle::faultOf(cloth), "") << "step " << step;
+    ASSERT_EQ(water_cycle::faultOf(cloth), "") << "step " << step;
   }
   const wetcloth::Ledger ledger = cloth.ledger();
   EXPECT_GT(ledger.absorbed, 10 * cloth.water().totalCapacity()) << "much water has come";
@@ -50,4 +48,4 @@ TEST_P(WaterLedger, ClosesAfterAHundredThousandStepsOfEverything) {
 WETCLOTH_IN_EVERY_WORLD(WaterLedger);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::water_ledger_test

@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-namespace wetcloth_test {
+namespace wetcloth_test::cloth_patch_test {
 namespace {
 
 using wetcloth::ClothPatch;
@@ -299,4 +299,4 @@ TEST(ClothPatchInput, EachFieldIsNamedWithItsValue) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::cloth_patch_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace wetcloth_test {
+namespace wetcloth_test::intrinsic_delaunay_test {
 
 using namespace transport;
 
@@ -211,4 +211,4 @@ TEST(IntrinsicDelaunay, GivesEachPairOnce) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::intrinsic_delaunay_test

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::rest_mesh_test {
 namespace {
 
 using wetcloth::RestMesh;
@@ -219,4 +219,4 @@ TEST(RestMeshOfACloth, IsBuiltOnceAndAgainAfterTheBodyChanged) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::rest_mesh_test

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numeric>
 
-namespace wetcloth_test {
+namespace wetcloth_test::edge_flow_test {
 
 using namespace transport;
 
@@ -201,4 +201,4 @@ TEST(SparseFactor, SolvesForOneAndForThreeRightHandSidesAlike) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::edge_flow_test

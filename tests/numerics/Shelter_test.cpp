@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::shelter_test {
 namespace {
 
 using wetcloth::Shelter;
@@ -212,4 +212,4 @@ TEST(ShelterInRain, OfAClothFoldedOnceHalfCatches) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::shelter_test

@@ -6,9 +6,7 @@
 
 #include <cmath>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::steady_state_test {
 
 namespace {
 
@@ -207,4 +205,4 @@ TEST(SettlingOnWater, DoesNotLookAtTheShape) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::steady_state_test

@@ -9,7 +9,7 @@
 #include <array>
 #include <random>
 
-namespace wetcloth_test {
+namespace wetcloth_test::paper_coplanarity_cubic_test {
 namespace {
 
 using wetcloth::collision::ContinuousCheck;
@@ -68,4 +68,4 @@ TEST(Paper, S8_TheRootIsTheTimeOfContact) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::paper_coplanarity_cubic_test

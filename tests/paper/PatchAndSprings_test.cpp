@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace wetcloth_test {
+namespace wetcloth_test::patch_and_springs_test {
 namespace {
 
 using wetcloth::ClothPatch;
@@ -106,4 +106,4 @@ TEST(Paper, S12_SaturatedSpringsStretch84TimesAsMuch) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::patch_and_springs_test

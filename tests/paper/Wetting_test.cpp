@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace wetcloth_test {
+namespace wetcloth_test::wetting_test {
 namespace {
 
 using wetcloth::Absorption;
@@ -96,4 +96,4 @@ TEST(Paper, S9_DarkensInFourStagesAndThenNoMore) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::wetting_test

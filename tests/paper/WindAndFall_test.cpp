@@ -9,7 +9,7 @@
 #include <memory>
 #include <sstream>
 
-namespace wetcloth_test {
+namespace wetcloth_test::wind_and_fall_test {
 namespace {
 
 using wetcloth::ClothPatch;
@@ -198,4 +198,4 @@ TEST(Paper, S11_InPhysicalModeSaturatedCottonDoesNotHalveTheTime) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::wind_and_fall_test

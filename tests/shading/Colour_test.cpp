@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace wetcloth_test {
+namespace wetcloth_test::colour_test {
 namespace {
 
 using wetcloth::Colour;
@@ -157,4 +157,4 @@ TEST(Colour, NanSaturationGivesAColourAllTheSame) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::colour_test

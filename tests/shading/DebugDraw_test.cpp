@@ -8,7 +8,7 @@
 
 #include <limits>
 
-namespace wetcloth_test {
+namespace wetcloth_test::debug_draw_test {
 namespace {
 
 using wetcloth::saturationColour;
@@ -223,4 +223,4 @@ TEST(SaturationColour, DarkensSteadilyAndEndsAtItsEnds) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::debug_draw_test

@@ -7,7 +7,7 @@
 
 #include <limits>
 
-namespace wetcloth_test {
+namespace wetcloth_test::vertex_buffer_test {
 namespace {
 
 using wetcloth::fillVertexBuffer;
@@ -175,4 +175,4 @@ TEST_P(FilledVertexBuffer, BadBuffersAreRefusedAndNothingIsWritten) {
 WETCLOTH_IN_EVERY_WORLD(FilledVertexBuffer);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::vertex_buffer_test

@@ -3,7 +3,7 @@
 
 #include "tests/state/StateScene.h"
 
-namespace wetcloth_test {
+namespace wetcloth_test::own_effect_test {
 namespace {
 
 using state_scene::Case;
@@ -54,4 +54,4 @@ TEST(StateOfOwnEffect, IsRefusedByNameWhenItReadsWhatIsNotItsOwn) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::own_effect_test

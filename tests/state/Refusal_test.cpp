@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace wetcloth_test {
+namespace wetcloth_test::refusal_test {
 namespace {
 
 using state_scene::Case;
@@ -103,7 +103,7 @@ TEST_F(StateRefusal, OfOtherEffects) {
   other.cloth().add<wetcloth::Swelling>();
   expectRefused(other.saved(), "a cloth's number of effects is 6 here and 7 in the saved state");
   StateScene another(kCase);
-  another.cloth().remove(*another.cloth().effects()[2]);
+  another.cloth().remove(another.cloth().effects()[2]);
   another.cloth().add<wetcloth::Seepage>();
   expectRefused(another.saved(), "an effect's name is \"Diffusion\" here and \"Seepage\" in the saved state");
 }
@@ -133,4 +133,4 @@ TEST_F(StateRefusal, OfAStreamThatCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::refusal_test

@@ -4,7 +4,7 @@
 
 #include "tests/state/StateScene.h"
 
-namespace wetcloth_test {
+namespace wetcloth_test::save_and_restore_test {
 namespace {
 
 using state_scene::Case;
@@ -111,4 +111,4 @@ TEST_P(SaveAndRestore, TurnsBackTime) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::save_and_restore_test

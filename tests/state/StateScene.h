@@ -15,19 +15,7 @@
 #include <string>
 #include <vector>
 
-// A test file that is joined with others has a namespace of its own by this name; what is used here has the plain one.
-#pragma push_macro("wetcloth_test")
-#undef wetcloth_test
-
-namespace state_scene {
-
-namespace core = wetcloth_test::core;
-using wetcloth_test::BulletWorld;
-using wetcloth_test::contactFlags;
-using wetcloth_test::kEarthGravity;
-using wetcloth_test::kMargin;
-using wetcloth_test::levelPatch;
-using wetcloth_test::WorldKind;
+namespace wetcloth_test::state_scene {
 
 enum class Story { hanging, onRigid, onPile, clothOnCloth, sleeping };
 
@@ -65,7 +53,7 @@ class StateScene {
   StateScene& operator=(const StateScene&) = delete;
 
   wetcloth::WetClothWorld& wet() { return *m_wet; }
-  wetcloth::WetCloth& cloth() { return *m_wet->cloths()[0]; }
+  wetcloth::WetCloth& cloth() { return m_wet->cloths()[0]; }
   BulletWorld& bullet() { return m_bullet; }
   btRigidBody& ball() { return m_rigid.back()->body(); }
 
@@ -88,7 +76,7 @@ class StateScene {
   std::vector<double> look() const {
     std::vector<double> numbers;
     for (const auto& body : m_bodies) {
-      for (const btScalar number : core::stateOf(*body)) numbers.push_back(double(number));
+      for (const btScalar number : stateOf(*body)) numbers.push_back(double(number));
     }
     for (const auto& rigid : m_rigid) {
       const btTransform& frame = rigid->body().getWorldTransform();
@@ -98,9 +86,9 @@ class StateScene {
         for (int axis = 0; axis < 3; ++axis) numbers.push_back(double(vector[axis]));
       }
     }
-    for (const auto& cloth : m_wet->cloths()) {
-      for (int i = 0; i < cloth->nodeCount(); ++i) numbers.push_back(cloth->held(i));
-      const wetcloth::Ledger ledger = cloth->ledger();
+    for (const wetcloth::WetCloth& cloth : m_wet->cloths()) {
+      for (int i = 0; i < cloth.nodeCount(); ++i) numbers.push_back(cloth.held(i));
+      const wetcloth::Ledger ledger = cloth.ledger();
       for (const double number : {ledger.absorbed, ledger.dripped, ledger.evaporated, ledger.runOff}) {
         numbers.push_back(number);
       }
@@ -124,7 +112,7 @@ class StateScene {
     m_bullet.addForce(*m_bodies.back(), std::make_unique<btDeformableMassSpringForce>(btScalar(20), btScalar(0.05)));
   }
   void addRigid(std::unique_ptr<btCollisionShape> shape, double mass, const btVector3& position) {
-    m_rigid.push_back(std::make_unique<core::RigidBody>(m_bullet, std::move(shape), btScalar(mass), position));
+    m_rigid.push_back(std::make_unique<RigidBody>(m_bullet, std::move(shape), btScalar(mass), position));
   }
 
   // A towel in the rain and the wind over a pool, with everything that does not need a contact.
@@ -132,7 +120,7 @@ class StateScene {
     m_bullet.info().water_normal = btVector3(0, 1, 0);
     m_bullet.info().water_offset = btScalar(-0.2);
     m_bullet.info().water_density = 1000;
-    wetcloth::ClothPatch patch = core::hangingPatch(6);
+    wetcloth::ClothPatch patch = hangingPatch(6);
     wetcloth::WetCloth& cloth = add(patch);
     wetcloth::Absorption::Parameters absorption;
     absorption.exposure =
@@ -159,7 +147,7 @@ class StateScene {
 
   // A cloth falls over a wet sphere, and a ball onto the cloth.
   void buildOnRigid() {
-    wetcloth::ClothPatch patch = core::squarePatch(9);
+    wetcloth::ClothPatch patch = squarePatch(9);
     patch.origin = btVector3(0, btScalar(0.3), 0);
     wetcloth::WetCloth& cloth = add(patch);
     addBulletSprings();
@@ -179,7 +167,7 @@ class StateScene {
   // a lying roller, a dumbbell of two balls, a slope of triangles, and a ball that is fast enough for Bullet to predict
   // where it hits.
   void buildOnPile() {
-    wetcloth::ClothPatch patch = core::squarePatch(7);
+    wetcloth::ClothPatch patch = squarePatch(7);
     patch.origin = btVector3(btScalar(-0.5), btScalar(0.5), btScalar(-0.5));
     add(patch).add<wetcloth::Absorption>();
     addBulletSprings();
@@ -206,7 +194,7 @@ class StateScene {
 
   // A wet cloth falls onto a dry one that is held at its corners.
   void buildClothOnCloth() {
-    wetcloth::ClothPatch lower = core::squarePatch(7);
+    wetcloth::ClothPatch lower = squarePatch(7);
     wetcloth::ClothPatch upper = levelPatch(6, 0.5);
     upper.origin = btVector3(btScalar(0.23), btScalar(0.06), btScalar(0.27));
     add(lower);
@@ -240,7 +228,7 @@ class StateScene {
   bool m_isDeformable;
   btSphereShape m_end{btScalar(0.05)};  // of the dumbbell
   btTriangleMesh m_triangles;
-  std::vector<std::unique_ptr<core::RigidBody>> m_rigid;
+  std::vector<std::unique_ptr<RigidBody>> m_rigid;
   std::vector<std::unique_ptr<btSoftBody>> m_bodies;
   std::unique_ptr<wetcloth::WetClothWorld> m_wet;
 };
@@ -259,6 +247,4 @@ inline std::string refusal(StateScene& scene, const std::string& state) {
   return "";
 }
 
-}  // namespace state_scene
-
-#pragma pop_macro("wetcloth_test")
+}  // namespace wetcloth_test::state_scene

@@ -13,7 +13,6 @@
 #include <vector>
 
 namespace wetcloth_test {
-namespace core {
 
 /// A level square of 1 m x 1 m, n x n nodes.
 inline wetcloth::ClothPatch squarePatch(int n) {
@@ -225,5 +224,4 @@ inline wetcloth::Effect& addCall(wetcloth::WetCloth& cloth, Call::Function funct
   return cloth.add(std::make_unique<Call>(std::move(function), stage));
 }
 
-}  // namespace core
 }  // namespace wetcloth_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace test {
+namespace wetcloth_test {
 
 struct KnownQuery {
   std::string id;
@@ -58,4 +58,4 @@ inline std::vector<KnownQuery> knownQueries(const std::string& collection) {
   return queries;
 }
 
-}  // namespace test
+}  // namespace wetcloth_test

@@ -10,7 +10,7 @@
 #include <limits>
 #include <random>
 
-namespace test {
+namespace wetcloth_test {
 
 enum class QueryClass {
   lattice,     ///< small integers: contacts on boundaries, double roots and coplanar motion turn up exactly
@@ -273,4 +273,4 @@ class QueryGenerator {
   std::mt19937_64 m_engine;
 };
 
-}  // namespace test
+}  // namespace wetcloth_test

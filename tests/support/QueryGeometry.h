@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace test {
+namespace wetcloth_test {
 
 using wetcloth::collision::CheckSettings;
 using wetcloth::collision::Contact;
@@ -217,4 +217,4 @@ Contact ask(const Way& way, Pair pair, const Query<Scalar>& query, const CheckSe
   });
 }
 
-}  // namespace test
+}  // namespace wetcloth_test

@@ -8,7 +8,7 @@
 #include <bullet_wetcloth/collision/CoplanarityCubic.h>
 #include <bullet_wetcloth/collision/ExactContact.h>
 
-namespace test {
+namespace wetcloth_test {
 
 struct Verdict {
   bool meets;
@@ -56,4 +56,4 @@ std::string faultOf(Tier tier, Pair pair, const Query<Scalar>& query, const Cont
   return "";
 }
 
-}  // namespace test
+}  // namespace wetcloth_test

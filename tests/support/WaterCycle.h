@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-namespace wetcloth_test::core {
+namespace wetcloth_test {
 
 /// Every effect of the water cycle at once, with parameters that a test makes up.
-namespace WaterCycle {
+namespace water_cycle {
 
 struct Choice {
   std::vector<std::string> names;                         ///< of the effects, as scenes spell them
@@ -102,7 +102,7 @@ inline void addTransportOrLoss(wetcloth::WetCloth& cloth, const std::string& nam
 
 inline void addMechanics(wetcloth::WetCloth& cloth, const std::string& name, const Choice& choice) {
   if (name == "wet_stiffness") {
-    const bool hasSprings = !cloth.effects().empty() && cloth.effects().back()->name() == std::string("HookeSprings");
+    const bool hasSprings = !cloth.effects().empty() && cloth.effects().back().name() == std::string("HookeSprings");
     const bool mayChange = hasSprings || !cloth.isInDeformableWorld();
     cloth.add<wetcloth::WetStiffness>({mayChange ? choice.number(0.05, 20) : 1, mayChange ? choice.number(0.05, 20) : 1,
                                        choice.number(0.01, 1000), choice.number(0.01, 1000)});
@@ -160,5 +160,5 @@ inline std::string faultOf(const wetcloth::WetCloth& cloth) {
   return "";
 }
 
-}  // namespace WaterCycle
-}  // namespace wetcloth_test::core
+}  // namespace water_cycle
+}  // namespace wetcloth_test

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+namespace wetcloth_test::worlds_at_once_test {
 namespace {
 
 using namespace state_scene;
@@ -54,3 +55,4 @@ TEST(WorldsAtOnce, ComeToWhatTheyComeToAlone) {
 }
 
 }  // namespace
+}  // namespace wetcloth_test::worlds_at_once_test

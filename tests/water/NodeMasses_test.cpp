@@ -4,9 +4,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::node_masses_test {
 
 namespace {
 
@@ -90,4 +88,4 @@ TEST_P(NodeMasses, AReleasedNodeTakesTheMassThatItWasGiven) {
 WETCLOTH_IN_EVERY_WORLD(NodeMasses);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::node_masses_test

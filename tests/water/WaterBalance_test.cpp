@@ -3,9 +3,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::water_balance_test {
 
 namespace {
 
@@ -115,4 +113,4 @@ TEST_P(WaterBalance, HoldsWhenAnEffectTakesTooMuch) {
 WETCLOTH_IN_EVERY_WORLD(WaterBalance);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::water_balance_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/ContactScene.h"
 
-namespace wetcloth_test {
+namespace wetcloth_test::water_momentum_across_effects_test {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -43,15 +43,15 @@ void expectNear(const Vector& actual, const Vector& expected, double scale) {
 class OneCloth {
  public:
   explicit OneCloth(WorldKind kind)
-      : m_scene(kind, core::squarePatch(4)),
+      : m_scene(kind, squarePatch(4)),
         m_wet(m_scene.world(), wetcloth::Hook::manual),
-        cloth(m_wet.add(m_scene.body(), core::fabricOf(200, 1))) {
+        cloth(m_wet.add(m_scene.body(), fabricOf(200, 1))) {
     scatterVelocities(m_scene.body());
   }
   /// Water of 100 times a node's dry mass falls on node 5, at 9 m/s, and a little on its neighbour.
   void pour() {
     arrived = plus(times(btVector3(0, -9, 0), 100 * cloth.dryMass(5)), times(btVector3(3, 0, 0), cloth.dryMass(6)));
-    core::addCall(
+    addCall(
         cloth,
         [](wetcloth::WetCloth& c, const wetcloth::Step&) {
           c.water().absorb(5, 100 * c.water().dryMass(5), 0, -9, 0);
@@ -68,7 +68,7 @@ class OneCloth {
   double scale() const { return 10 * cloth.totalMass(); }
 
  private:
-  core::CoreScene m_scene;
+  CoreScene m_scene;
   wetcloth::WetClothWorld m_wet;
 
  public:
@@ -93,14 +93,14 @@ TEST_P(WaterMomentumAcrossEffects, WhatArrivesAndWicksOnAtOnce) {
   one.step(1e3);
   ASSERT_LT(one.cloth.held(5), 50 * one.cloth.dryMass(5)) << "most of it has been passed on";
   expectNear(momentumOf(one.cloth), plus(before, one.arrived), one.scale());
-  EXPECT_LE(core::largestSpeed(one.cloth.body()), 9.5) << "no faster than what struck it";
+  EXPECT_LE(largestSpeed(one.cloth.body()), 9.5) << "no faster than what struck it";
 }
 
 TEST_P(WaterMomentumAcrossEffects, RunOffThatMeetsWaterOnTheMove) {
   OneCloth one(GetParam());
   one.wetUnevenly();
   const double off = 20 * one.cloth.dryMass(3);
-  core::addCall(
+  addCall(
       one.cloth, [&](wetcloth::WetCloth& c, const wetcloth::Step&) { c.water().runOff(3, off, 0, -9, 0); },
       wetcloth::Stage::sources);
   // What ran off left with the velocity that the node had then: it is gone before the water spreads.
@@ -148,14 +148,13 @@ WETCLOTH_IN_EVERY_WORLD(WaterMomentumAcrossEffects);
 /// Two cloths over each other, whose contacts are written by hand: a ring, in which nodes give and take in one step.
 class TwoCloths {
  public:
-  explicit TwoCloths(WorldKind kind)
-      : m_scene(kind, core::squarePatch(4)), m_wet(m_scene.world(), wetcloth::Hook::manual) {
+  explicit TwoCloths(WorldKind kind) : m_scene(kind, squarePatch(4)), m_wet(m_scene.world(), wetcloth::Hook::manual) {
     m_scene.body().m_cfg.collisions = contactFlags(kind);
-    m_other = core::squarePatch(4).build(m_scene.bullet.info());
+    m_other = squarePatch(4).build(m_scene.bullet.info());
     m_other->m_cfg.collisions = contactFlags(kind);
     m_scene.bullet.add(*m_other);
-    first = &m_wet.add(m_scene.body(), core::fabricOf(200, 1));
-    second = &m_wet.add(*m_other, core::fabricOf(200, 1));
+    first = &m_wet.add(m_scene.body(), fabricOf(200, 1));
+    second = &m_wet.add(*m_other, fabricOf(200, 1));
     scatterVelocities(first->body(), 2);
     scatterVelocities(second->body(), 5);
     touch(first->body(), second->body());
@@ -195,7 +194,7 @@ class TwoCloths {
     }
   }
 
-  core::CoreScene m_scene;
+  CoreScene m_scene;
   std::unique_ptr<btSoftBody> m_other;
   wetcloth::WetClothWorld m_wet;
 };
@@ -215,7 +214,7 @@ TEST_P(WaterMomentumBetweenCloths, GivenAndTakenInTheStepInWhichItArrives) {
     Vector arrived = {0, 0, 0};
     for (wetcloth::WetCloth* cloth : {two.first, two.second}) {
       arrived = plus(arrived, times(btVector3(0, -9, 0), 100 * cloth->dryMass(5)));
-      core::addCall(
+      addCall(
           *cloth,
           [](wetcloth::WetCloth& c, const wetcloth::Step&) {
             c.water().absorb(5, 100 * c.water().dryMass(5), 0, -9, 0);
@@ -274,7 +273,7 @@ TEST_P(WaterMomentumBetweenCloths, ACutAfterTheStepFindsNothingPending) {
                 1e-6 * two.first->totalMass());
   }
   const double mass = two.first->totalMass();
-  two.second->remove(*two.second->effects().front());
+  two.second->remove(two.second->effects().front());
   ASSERT_TRUE(body.cutLink(body.m_faces[0].m_n[0], body.m_faces[0].m_n[1], btScalar(0.5)));
   two.step(1e-3);
   // Bullet's sharing of the cut node's mass is rounded, and a new node's dry mass has a least value.
@@ -284,4 +283,4 @@ TEST_P(WaterMomentumBetweenCloths, ACutAfterTheStepFindsNothingPending) {
 WETCLOTH_IN_EVERY_WORLD(WaterMomentumBetweenCloths);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::water_momentum_across_effects_test

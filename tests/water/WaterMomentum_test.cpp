@@ -3,9 +3,7 @@
 
 #include "tests/support/CoreScene.h"
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::water_momentum_test {
 
 namespace {
 
@@ -158,4 +156,4 @@ TEST_P(WaterMomentum, ThePapersWayKeepsVelocities) {
 WETCLOTH_IN_EVERY_WORLD(WaterMomentum);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::water_momentum_test

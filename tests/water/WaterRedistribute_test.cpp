@@ -7,9 +7,7 @@
 #include <array>
 #include <limits>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::water_redistribute_test {
 
 namespace {
 
@@ -280,4 +278,4 @@ TEST_P(WaterRedistribute, StaysFiniteWhenMoreMovesOnThanTheNodeWasHeavyBefore) {
 WETCLOTH_IN_EVERY_WORLD(WaterRedistribute);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::water_redistribute_test

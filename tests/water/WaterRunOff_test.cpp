@@ -5,9 +5,7 @@
 
 #include <array>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::water_run_off_test {
 
 namespace {
 
@@ -182,4 +180,4 @@ TEST_P(WaterRunOff, ReachesBulletsNextStep) {
 WETCLOTH_IN_EVERY_WORLD(WaterRunOff);
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::water_run_off_test

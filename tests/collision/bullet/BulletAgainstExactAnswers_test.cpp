@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::bullet_against_exact_answers_test {
 namespace {
 
 using Wide = long double;
@@ -196,8 +196,8 @@ std::ostream& operator<<(std::ostream& out, const Disagreements& d) {
              << d.falseAlarms << " (grazing " << d.grazing << ")";
 }
 
-std::vector<test::KnownQuery> queriesThatBulletKnows(const std::string& collection) {
-  std::vector<test::KnownQuery> queries = test::knownQueries(collection);
+std::vector<KnownQuery> queriesThatBulletKnows(const std::string& collection) {
+  std::vector<KnownQuery> queries = knownQueries(collection);
   queries.erase(std::remove_if(queries.begin(), queries.end(),
                                [](const auto& q) { return q.pair != wetcloth::collision::Pair::vertexFace; }),
                 queries.end());
@@ -229,7 +229,7 @@ void blameForMiss(const command::BulletQuery& query, Disagreements& counts) {
 
 Disagreements disagreementsOf(const std::string& collection, double step) {
   Disagreements counts;
-  for (const test::KnownQuery& known : queriesThatBulletKnows(collection)) {
+  for (const KnownQuery& known : queriesThatBulletKnows(collection)) {
     const command::BulletQuery query(known.points, step);
     const bool found = query.check();
     // What Bullet's world puts before it changes no answer.
@@ -309,7 +309,7 @@ TEST(BulletAgainstExactAnswers, ClothQueries) {
 TEST(BulletAgainstExactAnswers, OurCopyOfBulletsPipelineAnswersAsBulletDoes) {
   for (const std::string collection : {"real", "cloth"})
     for (const double step : {kStepOfOne, kBulletsDefaultStep})
-      for (const test::KnownQuery& known : queriesThatBulletKnows(collection)) {
+      for (const KnownQuery& known : queriesThatBulletKnows(collection)) {
         const command::BulletQuery query(known.points, step);
         if (hasSeparatingPlane(&query.face(), &query.node(), query.step())) {
           EXPECT_FALSE(query.check()) << known.id;
@@ -326,7 +326,7 @@ TEST(BulletAgainstExactAnswers, ItsBernsteinCullingLosesNoContact) {
   // A coefficient is a sum of 24 products that each are rounded thrice.
   constexpr Wide kRoundings = 72;
   for (const std::string collection : {"real", "cloth"})
-    for (const test::KnownQuery& known : queriesThatBulletKnows(collection)) {
+    for (const KnownQuery& known : queriesThatBulletKnows(collection)) {
       const command::BulletQuery query(known.points);
       if (known.meets) {
         EXPECT_TRUE(bernsteinVFTest(&query.face(), &query.node(), query.step(), SAFE_EPSILON)) << known.id;
@@ -358,7 +358,7 @@ TEST(BulletAgainstExactAnswers, RoundingChangesSomeAnswersInFloat32) {
   const wetcloth::collision::ContinuousCheck exact(wetcloth::collision::Tier::exact);
   for (const std::string collection : {"real", "cloth"}) {
     int lost = 0, lostAndMissed = 0, gained = 0, gainedAndFound = 0;
-    for (const test::KnownQuery& known : queriesThatBulletKnows(collection)) {
+    for (const KnownQuery& known : queriesThatBulletKnows(collection)) {
       const command::BulletQuery bullet(known.points);
       const btSoftBody::Node* nodes[4] = {&bullet.node(), bullet.face().m_n[0], bullet.face().m_n[1],
                                           bullet.face().m_n[2]};
@@ -388,7 +388,7 @@ TEST(BulletAgainstExactAnswers, RoundingChangesSomeAnswersInFloat32) {
 TEST(BulletAgainstExactAnswers, ItsUnreachableInsideTestWouldLoseContacts) {
   const auto lostContacts = [](const std::string& collection) {
     int lost = 0;
-    for (const test::KnownQuery& known : queriesThatBulletKnows(collection)) {
+    for (const KnownQuery& known : queriesThatBulletKnows(collection)) {
       if (!known.meets) continue;
       const command::BulletQuery query(known.points);
       btScalar k0, k1, k2, k3;
@@ -430,4 +430,4 @@ TEST(BulletAgainstExactAnswers, SolveP3GivesAWrongRootToFourOfNineRandomCubics) 
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::bullet_against_exact_answers_test

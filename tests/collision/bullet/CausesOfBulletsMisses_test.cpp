@@ -20,7 +20,7 @@
 #include <sys/time.h>
 #endif
 
-namespace wetcloth_test {
+namespace wetcloth_test::causes_of_bullets_misses_test {
 namespace {
 
 using BulletsQuery = wetcloth::collision::Query<double>;
@@ -268,4 +268,4 @@ TEST(CausesOfBulletsMisses, TheContactsThatItsWorldFindsMoveNothing) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::causes_of_bullets_misses_test

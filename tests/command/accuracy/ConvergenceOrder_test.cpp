@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::convergence_order_test {
 namespace {
 
 using accuracy::fitOrder;
@@ -114,4 +114,4 @@ TEST(Advice, NamesTheFastestWithinOnePercentAndTheMostAccurate) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::convergence_order_test

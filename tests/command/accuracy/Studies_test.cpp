@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::studies_test {
 namespace {
 
 using accuracy::Order;
@@ -171,4 +171,4 @@ TEST(Studies, PrecisionsAreComparedStudyByStudy) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::studies_test

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::measured_front_test {
 namespace {
 
 using command::cheapestStepping;
@@ -137,4 +137,4 @@ TEST(MeasuredFront, ASceneGetsAsManySubstepsAsItsStepNeeds) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::measured_front_test

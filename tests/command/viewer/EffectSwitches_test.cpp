@@ -8,9 +8,10 @@
 #include <set>
 #include <string>
 
+namespace wetcloth_test::effect_switches_test {
 namespace {
 
-using namespace viewer_test;
+using namespace viewer_scene;
 using viewer::LiveScene;
 
 class EffectSwitchesIn : public InEachWorld {};
@@ -25,8 +26,6 @@ void expectLedgerClosed(const LiveScene& live) {
 }
 
 std::size_t effectCount(const LiveScene& live) { return live.world().cloths()[0]->effects().size(); }
-
-}  // namespace
 
 TEST_P(EffectSwitchesIn, EveryEffectGoesOnAndOffInTheMiddleOfARun) {
   command::Scene scene = soakingTowel(GetParam());
@@ -138,3 +137,6 @@ TEST(EffectSwitches, ScenesOfTheExamplesBeginWithTheirOwnEffects) {
   run(live, 3);
   EXPECT_EQ(live.failure(), "");
 }
+
+}  // namespace
+}  // namespace wetcloth_test::effect_switches_test

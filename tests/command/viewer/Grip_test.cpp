@@ -5,9 +5,10 @@
 #include <cmath>
 #include <vector>
 
+namespace wetcloth_test::grip_test {
 namespace {
 
-using namespace viewer_test;
+using namespace viewer_scene;
 using viewer::Grip;
 using viewer::LiveScene;
 using viewer::Side;
@@ -39,8 +40,6 @@ std::vector<btScalar> inverseMasses(const btSoftBody& body) {
   for (int i = 0; i < body.m_nodes.size(); ++i) masses.push_back(body.m_nodes[i].m_im);
   return masses;
 }
-
-}  // namespace
 
 TEST_P(GripIn, TheHeldNodeFollowsTheHandAndThePinsStay) {
   LiveScene live(hangingTowel(GetParam()));
@@ -133,3 +132,6 @@ TEST(Picking, NothingBesideTheClothNorBehindABall) {
   EXPECT_TRUE(live.grab(rayAt(0.1, 1.5)));
   EXPECT_FALSE(live.grab(rayAt(0.1, 1.5), Side::plainBullet));  // there is none
 }
+
+}  // namespace
+}  // namespace wetcloth_test::grip_test

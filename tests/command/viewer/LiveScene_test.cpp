@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
+namespace wetcloth_test::live_scene_test {
 namespace {
 
-using namespace viewer_test;
+using namespace viewer_scene;
 using command::stateHash;
 using command::WorldKind;
 using viewer::LiveScene;
@@ -21,8 +22,6 @@ const double infinity = std::numeric_limits<double>::infinity();
 
 class LiveSceneIn : public InEachWorld {};
 INSTANTIATE_TEST_SUITE_P(EachWorld, LiveSceneIn, allWorlds, worldName);
-
-}  // namespace
 
 TEST_P(LiveSceneIn, RunsAsTheSceneDoesWithoutIt) {
   const command::Scene scene = soakingTowel(GetParam());
@@ -223,3 +222,6 @@ TEST(LiveScene, AStateThatIsNotFiniteEndsTheRunAndAResetBeginsAnother) {
   run(live, 3);
   EXPECT_EQ(live.steps(), 3);
 }
+
+}  // namespace
+}  // namespace wetcloth_test::live_scene_test

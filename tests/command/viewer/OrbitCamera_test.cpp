@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+namespace wetcloth_test::orbit_camera_test {
 namespace {
 
 using viewer::bulletVector;
@@ -19,8 +20,6 @@ pictures::View someView() { return {{1, 2, 5}, {0.5F, 1, 0}, {0, 1, 0}, 40}; }
 double distance(const pictures::Vector3& a, const pictures::Vector3& b) {
   return static_cast<double>((bulletVector(a) - bulletVector(b)).length());
 }
-
-}  // namespace
 
 TEST(OrbitCamera, BeginsWithTheViewItWasGiven) {
   for (const pictures::Vector3& up : {pictures::Vector3{0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {1, 0, 0}}) {
@@ -87,3 +86,6 @@ TEST(OrbitCamera, ARayGoesThroughWhatIsSeenThere) {
   }
   EXPECT_FALSE(camera.project(btVector3(2, 4, 20), 1.6));  // behind the eye
 }
+
+}  // namespace
+}  // namespace wetcloth_test::orbit_camera_test

@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace viewer_test {
+namespace wetcloth_test::viewer_scene {
 
 /// A square towel that hangs by its upper edge, one metre wide, in the plane z = 0; dry, with no effect.
 inline command::Scene hangingTowel(command::WorldKind world = command::WorldKind::softRigid) {
@@ -74,4 +74,4 @@ inline std::string worldName(const testing::TestParamInfo<command::WorldKind>& i
   return command::nameOf(info.param);
 }
 
-}  // namespace viewer_test
+}  // namespace wetcloth_test::viewer_scene

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+
+#include <BulletSoftBody/btSoftBody.h>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Notices that a body was cut or refined: that its nodes, links or faces changed in number.
+class BodyWatch {
+ public:
+  explicit BodyWatch(const btSoftBody& body) : m_body(body) { remember(); }
+
+  bool hasChanged() const {
+    return nodesChanged() || m_body.m_links.size() != m_links || m_body.m_faces.size() != m_faces;
+  }
+  bool nodesChanged() const { return m_body.m_nodes.size() != m_nodes; }
+  /// As last remembered.
+  int nodes() const { return m_nodes; }
+  /// Takes the body as it is now for the known one.
+  void remember() {
+    m_nodes = m_body.m_nodes.size();
+    m_links = m_body.m_links.size();
+    m_faces = m_body.m_faces.size();
+  }
+
+ private:
+  const btSoftBody& m_body;
+  int m_nodes = 0;
+  int m_links = 0;
+  int m_faces = 0;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

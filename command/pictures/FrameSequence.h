@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Pictures, films, pages and files of a run. Plain numbers in float32, whatever Bullet's precision is.
+namespace pictures {
+
+using Vector3 = std::array<float, 3>;  ///< [m], or of length 1
+using Rgb = std::array<float, 3>;      ///< linear RGB, each in [0, 1]
+using Triangle = std::array<int, 3>;   ///< indices of vertices
+using Texture = std::array<float, 2>;  ///< place on the flat sheet [m]
+
+/// What of a cloth stays the same during a run.
+struct ClothShape {
+  std::string name;
+  std::vector<Texture> texture;           ///< one per node
+  std::vector<Triangle> triangles;        ///< indices of nodes
+  std::vector<std::array<int, 2>> links;  ///< indices of nodes
+  std::vector<int> pinned;                ///< nodes
+  Rgb dryColour{};
+  Rgb wetColour{};  ///< at saturation 1; linear in the saturation between
+  float dryRoughness = 1;
+  float wetRoughness = 1;
+};
+
+/// A cloth at one moment: one value per node.
+struct ClothState {
+  std::vector<Vector3> positions;  ///< [m]
+  std::vector<float> saturation;   ///< water over capacity, [0, 1]
+  std::vector<float> stretch;      ///< largest of its links' length over length at rest, 1 unstretched
+  std::vector<float> speed;        ///< [m/s]
+};
+
+/// Water that has left a cloth and falls.
+struct Drop {
+  Vector3 position{};  ///< [m]
+  float radius = 0;    ///< [m]
+};
+
+/// Everything that moves, at one moment.
+struct Frame {
+  double time = 0;  ///< [s]
+  std::vector<ClothState> cloths;
+  std::vector<Drop> drops;
+};
+
+/// A plane that cloth can lie on: points p with normal . p = offset.
+struct Ground {
+  Vector3 normal{};  ///< of length 1
+  float offset = 0;  ///< [m]
+};
+
+/// A body that nothing moves, as triangles that face outwards (counter-clockwise seen from outside).
+struct Solid {
+  std::vector<Vector3> vertices;  ///< [m]
+  std::vector<Vector3> normals;   ///< one per vertex, of length 1
+  std::vector<Triangle> triangles;
+};
+
+/// What the cloths of a scene are among.
+struct Scenery {
+  std::string title;
+  Vector3 up{0, 1, 0};
+  std::vector<Ground> grounds;
+  std::vector<Solid> solids;
+  std::optional<float> waterLevel;            ///< height of a level surface of water along `up` [m]
+  Vector3 viewDirection{-0.45F, -0.35F, -1};  ///< the camera looks along it; not of length 1
+  float fieldOfView = 30;                     ///< vertical [degrees]
+};
+
+/// A number in the course of a run, one value per frame.
+struct Series {
+  std::string name;
+  std::string unit;
+  std::vector<double> values;
+};
+
+/// A whole run.
+struct FrameSequence {
+  Scenery scenery;
+  std::vector<ClothShape> cloths;
+  std::vector<Frame> frames;  ///< each has as many cloths
+  std::vector<Series> series;
+};
+
+}  // namespace pictures

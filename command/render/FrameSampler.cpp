@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Zlib
+#include "command/render/FrameSampler.h"
+
+#include "command/run/ScenePainter.h"
+
+#include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/shading/Colour.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace command {
+namespace {
+
+using pictures::ClothShape;
+using pictures::ClothState;
+
+pictures::Vector3 plain(const btVector3& vector) {
+  return {static_cast<float>(vector.x()), static_cast<float>(vector.y()), static_cast<float>(vector.z())};
+}
+
+pictures::Rgb plain(const wetcloth::Colour& colour) {
+  return {static_cast<float>(colour.r), static_cast<float>(colour.g), static_cast<float>(colour.b)};
+}
+
+std::vector<pictures::Texture> textureOf(const wetcloth::ClothPatch& patch) {
+  const auto width = static_cast<float>(patch.edgeU.length());
+  const auto height = static_cast<float>(patch.edgeV.length());
+  std::vector<pictures::Texture> texture;
+  for (const auto& [u, v] : patch.textureCoordinates()) texture.push_back({u * width, v * height});
+  return texture;
+}
+
+/// The mesh seen along the axis in which it reaches least far.
+std::vector<pictures::Texture> textureOf(const TriangleMesh& mesh) {
+  btVector3 low = mesh.vertices.front();
+  btVector3 high = low;
+  for (const btVector3& vertex : mesh.vertices) {
+    low.setMin(vertex);
+    high.setMax(vertex);
+  }
+  const int thin = (high - low).minAxis();
+  std::vector<pictures::Texture> texture;
+  for (const btVector3& vertex : mesh.vertices) {
+    texture.push_back({static_cast<float>(vertex[(thin + 1) % 3]), static_cast<float>(vertex[(thin + 2) % 3])});
+  }
+  return texture;
+}
+
+ClothShape shapeOf(const ClothScene& scene, const btSoftBody& body) {
+  ClothShape shape;
+  shape.name = scene.name;
+  shape.texture = std::visit([](const auto& form) { return textureOf(form); }, scene.shape);
+  shape.triangles = facesOf(body);
+  const btSoftBody::Node* const first = &body.m_nodes[0];
+  for (int i = 0; i < body.m_links.size(); ++i) {
+    const auto& nodes = body.m_links[i].m_n;
+    shape.links.push_back({static_cast<int>(nodes[0] - first), static_cast<int>(nodes[1] - first)});
+  }
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    if (body.m_nodes[i].m_im == 0) shape.pinned.push_back(i);
+  }
+  const auto& dry = scene.fabric.dryColour;
+  const wetcloth::Colour dryColour{dry[0], dry[1], dry[2]};
+  shape.dryColour = plain(dryColour);
+  shape.wetColour = plain(wetcloth::wetColour(dryColour, 1));
+  shape.dryRoughness = static_cast<float>(scene.fabric.dryRoughness);
+  shape.wetRoughness = static_cast<float>(wetcloth::wetRoughness(scene.fabric.dryRoughness, 1));
+  return shape;
+}
+
+float distance(const btSoftBody& body, const std::array<int, 2>& link) {
+  return static_cast<float>((body.m_nodes[link[0]].m_x - body.m_nodes[link[1]].m_x).length());
+}
+
+std::vector<float> lengthsOf(const ClothShape& shape, const btSoftBody& body) {
+  std::vector<float> lengths;
+  for (const auto& link : shape.links) lengths.push_back(distance(body, link));
+  return lengths;
+}
+
+/// The flat pieces of a collider, each with the normals of a sphere or of the piece.
+pictures::Solid solidOf(const Collider& collider) {
+  pictures::Solid solid;
+  const auto* const sphere = std::get_if<Sphere>(&collider);
+  const auto* const box = std::get_if<Box>(&collider);
+  const btVector3 centre = sphere != nullptr ? sphere->centre : box->centre;
+  for (std::vector<btVector3> piece : surfaceOf(collider)) {
+    btVector3 flat = (piece[2] - piece[0]).cross(piece[3] - piece[1]).normalized();
+    if (flat.dot((piece[0] + piece[2]) / 2 - centre) < 0) {
+      std::reverse(piece.begin(), piece.end());
+      flat = -flat;
+    }
+    const int first = static_cast<int>(solid.vertices.size());
+    for (const btVector3& corner : piece) {
+      solid.vertices.push_back(plain(corner));
+      solid.normals.push_back(plain(sphere != nullptr ? (corner - centre).normalized() : flat));
+    }
+    solid.triangles.push_back({first, first + 1, first + 2});
+    solid.triangles.push_back({first, first + 2, first + 3});
+  }
+  return solid;
+}
+
+pictures::Scenery sceneryOf(const Scene& scene) {
+  pictures::Scenery scenery;
+  scenery.title = scene.name;
+  scenery.up = plain(scene.up());
+  for (const Collider& collider : scene.colliders) {
+    if (const auto* plane = std::get_if<Plane>(&collider)) {
+      scenery.grounds.push_back({plain(plane->normal), static_cast<float>(plane->offset)});
+    } else {
+      scenery.solids.push_back(solidOf(collider));
+    }
+  }
+  if (scene.water) scenery.waterLevel = static_cast<float>(scene.water->level);
+  scenery.viewDirection = plain(scene.camera.direction);
+  scenery.fieldOfView = static_cast<float>(scene.camera.fieldOfView);
+  return scenery;
+}
+
+void takeNodes(const btSoftBody& body, ClothState& state) {
+  const std::size_t count = wetcloth::toSize(body.m_nodes.size());
+  state.positions.resize(count);
+  state.speed.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const btSoftBody::Node& node = body.m_nodes[static_cast<int>(i)];
+    state.positions[i] = plain(node.m_x);
+    state.speed[i] = static_cast<float>(node.m_v.length());
+  }
+}
+
+void takeStretch(const btSoftBody& body, const ClothShape& shape, const std::vector<float>& restLengths,
+                 ClothState& state) {
+  state.stretch.assign(state.positions.size(), 0);
+  for (std::size_t i = 0; i < shape.links.size(); ++i) {
+    const float stretch = distance(body, shape.links[i]) / std::max(restLengths[i], 1e-12F);
+    for (const int node : shape.links[i]) {
+      float& most = state.stretch[wetcloth::toSize(node)];
+      most = std::max(most, stretch);
+    }
+  }
+}
+
+}  // namespace
+
+FrameSampler::FrameSampler(const SceneWorld& world) : m_scenery(sceneryOf(world.scene())) {
+  for (std::size_t i = 0; i < world.bodies().size(); ++i) {
+    const btSoftBody& body = *world.bodies()[i];
+    m_cloths.push_back(shapeOf(world.scene().cloths[i], body));
+    m_restLengths.push_back(lengthsOf(m_cloths.back(), body));
+  }
+}
+
+void FrameSampler::take(const SceneWorld& world, double time, pictures::Frame& frame) const {
+  frame.time = time;
+  frame.drops.clear();
+  for (const FallingDrop& drop : world.drops().at(time)) {
+    frame.drops.push_back({plain(drop.position), static_cast<float>(drop.radius)});
+  }
+  frame.cloths.resize(m_cloths.size());
+  for (std::size_t i = 0; i < m_cloths.size(); ++i) {
+    ClothState& state = frame.cloths[i];
+    takeNodes(*world.bodies()[i], state);
+    takeStretch(*world.bodies()[i], m_cloths[i], m_restLengths[i], state);
+    state.saturation.assign(state.positions.size(), 0);
+    if (world.cloths().empty()) continue;  // plain Bullet knows no water
+    for (std::size_t node = 0; node < state.saturation.size(); ++node) {
+      state.saturation[node] = static_cast<float>(world.cloths()[i]->saturation(static_cast<int>(node)));
+    }
+  }
+}
+
+}  // namespace command
