@@ -15,7 +15,7 @@ inline namespace WETCLOTH_PRECISION {
 ///
 /// Effects of the library do not throw in a step, but a user's own may, and an exception must not travel through
 /// Bullet's step: an effect that throws there is removed, with a message to the world's log.
-class EffectList {
+class WETCLOTH_EXPORT EffectList {
  public:
   /// An effect, and the class that it was added as: &EffectType<E>::tag, or null when that was no more than Effect.
   struct Entry {
