@@ -56,7 +56,7 @@ void Dripping::apply(WetCloth& cloth, const Step& step) {
   if (!(gravity > 0 && std::isfinite(gravity))) return;
   Water& water = cloth.water();
   if (m_hasNoExcess && m_revisionWithoutExcess == water.revision()) return;
-  if (m_steadyState.isReached(cloth, step)) return;
+  if (m_steadyState.isReached(cloth.body(), cloth.water(), step.gravity)) return;
 
   const btVector3 down = step.gravity / gravity;
   bool hasExcess = false;
@@ -74,7 +74,7 @@ void Dripping::apply(WetCloth& cloth, const Step& step) {
   m_hasNoExcess = !hasExcess;
   m_revisionWithoutExcess = water.revision();
   // However slowly a node drips, it drips on: only when none does may the cloth's shape decide when to look again.
-  m_steadyState.note(cloth, step, drips ? water.totalCapacity() : 0);
+  m_steadyState.note(cloth.body(), cloth.water(), step.gravity, step.dt, drips ? water.totalCapacity() : 0);
 }
 
 double Dripping::pendingMass() const {
