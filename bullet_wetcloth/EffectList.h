@@ -37,7 +37,12 @@ class WETCLOTH_EXPORT EffectList {
   bool empty() const { return m_entries.empty(); }
   bool has(Stage stage) const;
   /// The first that was added as this class, or null.
-  Effect* find(const void* type) const;
+  Effect* find(const void* type) const {
+    for (const Entry& entry : m_entries) {
+      if (entry.type == type) return entry.effect.get();
+    }
+    return nullptr;
+  }
   const std::vector<Entry>& entries() const { return m_entries; }
 
   /// Applies the effects of these stages, both included. False: one threw and was removed. Never throws.

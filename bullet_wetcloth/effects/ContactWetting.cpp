@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/bullet/Contacts.h"
+#include "bullet_wetcloth/numerics/ContactArea.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
@@ -115,22 +116,23 @@ double* ContactWetting::filmOn(const btCollisionObject* body) {
 }
 
 void ContactWetting::attach(WetCloth& cloth) {
-  m_whyNoRigidContacts = whyNoRigidContacts(cloth);
+  m_whyNoRigidContacts = whyNoRigidContacts(cloth.body(), cloth.isInDeformableWorld());
   if (!m_parameters.wetBodies.empty() && !m_whyNoRigidContacts.empty()) {
     reject("ContactWetting.wetBodies", m_whyNoRigidContacts);
   }
-  const std::string whyNoCloths = whyNoFaceContacts(cloth);
+  const std::string whyNoCloths = whyNoFaceContacts(cloth.body(), cloth.isInDeformableWorld());
   if (m_parameters.cloths && !whyNoCloths.empty()) {
     reject("ContactWetting.cloths", whyNoCloths);
   }
-  m_hasNodeContacts = whyNoNodeContacts(cloth).empty();
+  m_hasNodeContacts = whyNoNodeContacts(cloth.body(), cloth.isInDeformableWorld()).empty();
   cloth.restMesh();
   m_contactsOfNode.resize(std::max(m_contactsOfNode.size(), cloth.water().size()));
 }
 
 void ContactWetting::apply(WetCloth& cloth, const Step& step) {
   if (!m_parameters.wetBodies.empty()) {
-    RigidContacts(cloth).visit([&](const RigidContact& contact) { takeFromFilm(cloth, step, contact); });
+    RigidContacts(cloth.body(), cloth.world().world(), cloth.isInDeformableWorld())
+        .visit([&](const RigidContact& contact) { takeFromFilm(cloth, step, contact); });
   }
   if (!m_parameters.cloths) return;
   const btAlignedObjectArray<btSoftBody*>& bodies = cloth.world().softBodies();
@@ -152,7 +154,7 @@ void ContactWetting::takeFromFilm(WetCloth& cloth, const Step& step, const Rigid
     const int node = contact.point.nodes[static_cast<std::size_t>(k)];
     const std::size_t i = static_cast<std::size_t>(node);
     const double area = contact.point.count == 1
-                            ? contactArea(cloth, i)
+                            ? contactArea(cloth.restMesh(), cloth.water(), cloth.fabric().arealDensity, i)
                             : cloth.restMesh().triangles()[static_cast<std::size_t>(contact.face)].area;
     const double conductance = m_parameters.rate * area * contact.point.weights[static_cast<std::size_t>(k)] * step.dt;
     const double uptake = filmUptake(water.held(i), water.capacity(i), conductance, *film);
@@ -184,7 +186,8 @@ void ContactWetting::exchange(WetCloth& nodesOf, WetCloth& facesOf, const Step& 
   contacts.visit([&](const FaceContact& contact) { ++m_contactsOfNode[static_cast<std::size_t>(contact.node)]; });
   contacts.visit([&](const FaceContact& contact) {
     const std::size_t node = static_cast<std::size_t>(contact.node);
-    const double area = contactArea(nodesOf, node) / (2.0 * m_contactsOfNode[node]);
+    const double area = contactArea(nodesOf.restMesh(), nodesOf.water(), nodesOf.fabric().arealDensity, node) /
+                        (2.0 * m_contactsOfNode[node]);
     exchange(nodesOf, facesOf, contact, m_parameters.rate * area * step.dt);
   });
 }

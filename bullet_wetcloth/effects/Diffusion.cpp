@@ -100,7 +100,7 @@ void Diffusion::rememberWarp(WetCloth& cloth) {
 }
 
 void Diffusion::apply(WetCloth& cloth, const Step& step) {
-  if (m_steadyState.isReached(cloth, step)) return;
+  if (m_steadyState.isReached(cloth.body(), cloth.water(), step.gravity)) return;
   if (m_flow->load(cloth.water())) {
     m_solver->forgetFactor();
     m_longestSubstep = longestExplicitStep(m_flow->edges(), m_flow->capacities());
@@ -118,9 +118,13 @@ void Diffusion::apply(WetCloth& cloth, const Step& step) {
     }
     m_flow->limit(m_fluxes);
   }
-  m_flow->commit(cloth, m_fluxes);
+  if (m_flow->hasMoved()) {
+    cloth.joinArrivals();
+    m_flow->commit(cloth.body(), cloth.water(), m_fluxes,
+                   [&](btSoftBody::Node& node, const btVector3& change) { cloth.push(node, change); });
+  }
   m_nodesVisited += static_cast<long long>(m_flow->nodeCount());
-  m_steadyState.note(cloth, step, m_flow->moved());
+  m_steadyState.note(cloth.body(), cloth.water(), step.gravity, step.dt, m_flow->moved());
 }
 
 void Diffusion::setPotential() {

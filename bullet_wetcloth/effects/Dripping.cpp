@@ -54,7 +54,7 @@ void Dripping::apply(WetCloth& cloth, const Step& step) {
   if (!(gravity > 0 && std::isfinite(gravity))) return;
   Water& water = cloth.water();
   if (m_nothingLeft.holds(water)) return;
-  if (m_steadyState.isReached(cloth, step)) return;
+  if (m_steadyState.isReached(cloth.body(), cloth.water(), step.gravity)) return;
 
   const btVector3 down = step.gravity / gravity;
   bool hasExcess = false;
@@ -71,7 +71,7 @@ void Dripping::apply(WetCloth& cloth, const Step& step) {
   m_nodesVisited += static_cast<long long>(m_carry.size());
   m_nothingLeft.note(water, !hasExcess);
   // However slowly a node drips, it drips on: only when none does may the cloth's shape decide when to look again.
-  m_steadyState.note(cloth, step, drips ? water.totalCapacity() : 0);
+  m_steadyState.note(cloth.body(), cloth.water(), step.gravity, step.dt, drips ? water.totalCapacity() : 0);
 }
 
 double Dripping::pendingMass() const {

@@ -61,7 +61,7 @@ void Immersion::noticeSurface(const std::optional<WaterSurface>& surface) {
 
 bool Immersion::isIdle(const WetCloth& cloth, const Step& step) {
   if (m_nothingLeft.holds(cloth.water())) return true;
-  if (!m_steadyState.isReached(cloth, step)) return false;
+  if (!m_steadyState.isReached(cloth.body(), cloth.water(), step.gravity)) return false;
   if (reach(cloth.body()) < m_reachLimit) return true;
   m_steadyState.restart();
   return false;
@@ -92,7 +92,7 @@ void Immersion::soak(WetCloth& cloth, const Step& step) {
   m_nothingLeft.note(water, isFull);
   m_reachLimit = isWet ? kInfinity : reach(cloth.body()) + clearance / 4;
   // An exponential that has slowed down is not yet at its end: what counts is whether anything is left to soak.
-  m_steadyState.note(cloth, step, isSoaking ? water.totalCapacity() : 0);
+  m_steadyState.note(cloth.body(), cloth.water(), step.gravity, step.dt, isSoaking ? water.totalCapacity() : 0);
 }
 
 // Depth of the lowest corner of the body's bounds. They are those of the positions that Bullet predicted for the last

@@ -59,14 +59,18 @@ void Seepage::attach(WetCloth& cloth) {
 }
 
 void Seepage::apply(WetCloth& cloth, const Step& step) {
-  if (m_steadyState.isReached(cloth, step)) return;
+  if (m_steadyState.isReached(cloth.body(), cloth.water(), step.gravity)) return;
   m_flow->load(cloth.water());
   measureDepths(cloth, step);
   const double speed = m_parameters.speed * static_cast<double>(step.gravity.length()) / kEarthGravity;
   flow(std::isfinite(speed) ? speed : 0, step.dt);
-  m_flow->commit(cloth, m_fluxes);
+  if (m_flow->hasMoved()) {
+    cloth.joinArrivals();
+    m_flow->commit(cloth.body(), cloth.water(), m_fluxes,
+                   [&](btSoftBody::Node& node, const btVector3& change) { cloth.push(node, change); });
+  }
   m_nodesVisited += static_cast<long long>(m_flow->nodeCount());
-  m_steadyState.note(cloth, step, m_flow->moved());
+  m_steadyState.note(cloth.body(), cloth.water(), step.gravity, step.dt, m_flow->moved());
 }
 
 void Seepage::measureDepths(const WetCloth& cloth, const Step& step) {

@@ -85,13 +85,14 @@ void Splash::attach(WetCloth& cloth) {
 
 void Splash::apply(WetCloth& cloth, const Step& step) {
   m_catcher.skip();
-  if (m_parameters.flux == 0 || m_steadyState.isReached(cloth, step)) return;
+  if (m_parameters.flux == 0 || m_steadyState.isReached(cloth.body(), cloth.water(), step.gravity)) return;
   m_catcher.begin(cloth.body());
   std::visit([&](const auto& region) { catchDrops(region, step.dt); }, m_parameters.region);
   m_catcher.deliver(cloth.water(), flow() * step.dt);
   m_nodesVisited += static_cast<long long>(m_catcher.positions().size());
   // Drops that all run off move no water, but go on pushing.
-  m_steadyState.note(cloth, step, caught() > 0 ? cloth.water().totalCapacity() : 0);
+  m_steadyState.note(cloth.body(), cloth.water(), step.gravity, step.dt,
+                     caught() > 0 ? cloth.water().totalCapacity() : 0);
 }
 
 bool Splash::wakes(const WetCloth& /*cloth*/, const Step& /*step*/) const { return caught() > 0; }

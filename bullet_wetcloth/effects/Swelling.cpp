@@ -42,7 +42,7 @@ void Swelling::attach(WetCloth& cloth) {
   if (other && other != this) reject("Swelling", "the cloth has one already");
   const std::size_t known = m_lengths.size();
   const bool isFirst = known == 0;
-  m_saturation.reset(cloth);
+  m_saturation.reset(cloth.body(), cloth.water());
   m_lengths.resize(m_saturation.size());
   for (std::size_t k = 0; k < m_lengths.size(); ++k) {
     const btScalar found = body.m_links[static_cast<int>(k)].m_rl;
@@ -76,7 +76,7 @@ void Swelling::apply(WetCloth& cloth, const Step& step) {
     return;
   }
   if (m_lengthsWillBeReset) adoptReset(body);
-  if (!m_saturation.update(cloth) && !m_isStale) return;
+  if (!m_saturation.update(cloth.water()) && !m_isStale) return;
   writeLengths(body);
 }
 

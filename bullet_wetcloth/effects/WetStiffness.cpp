@@ -59,7 +59,7 @@ void WetStiffness::attach(WetCloth& cloth) {
            "in the deformable world Bullet's springs have one stiffness for all links and read none per link; add "
            "HookeSprings first, or set wetStretch and wetBending to 1");
   }
-  m_saturation.reset(cloth);
+  m_saturation.reset(cloth.body(), cloth.water());
   m_shares.resize(m_saturation.size());
   m_factors.resize(scales() ? m_saturation.size() : 0);
   m_sharesDt = 0;
@@ -77,7 +77,7 @@ void WetStiffness::apply(WetCloth& cloth, const Step& step) {
   const btSoftBody& body = cloth.body();
   const bool constantsWereReset = m_constantsWillBeReset && !body.m_bUpdateRtCst;
   m_constantsWillBeReset = body.m_bUpdateRtCst;
-  const bool changed = m_saturation.update(cloth);
+  const bool changed = m_saturation.update(cloth.water());
   if (scales() && (changed || m_factorsAreStale)) {
     scaleLinks(cloth);
   } else if (scales() && constantsWereReset) {

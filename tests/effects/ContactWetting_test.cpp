@@ -77,8 +77,8 @@ TEST_P(ContactWettingInWorld, ANodeFillsWhileItTouches) {
   addCall(
       cloth.scene.cloth(),
       [&](wetcloth::WetCloth& wetCloth, const wetcloth::Step&) {
-        wetcloth::RigidContacts(wetCloth).visit(
-            [&](const wetcloth::RigidContact& contact) { ++touched[std::size_t(contact.point.nodes[0])]; });
+        wetcloth::RigidContacts(wetCloth.body(), wetCloth.world().world(), wetCloth.isInDeformableWorld())
+            .visit([&](const wetcloth::RigidContact& contact) { ++touched[std::size_t(contact.point.nodes[0])]; });
       },
       wetcloth::Stage::sources);
   cloth.scene.step(240);
