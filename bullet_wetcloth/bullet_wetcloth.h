@@ -7,6 +7,7 @@
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/effects/Absorption.h"
+#include "bullet_wetcloth/effects/Adjust.h"
 #include "bullet_wetcloth/effects/Cling.h"
 #include "bullet_wetcloth/effects/CollisionAudit.h"
 #include "bullet_wetcloth/effects/ContactWetting.h"
