@@ -9,6 +9,7 @@
 #include "bullet_wetcloth/drawing/DebugDraw.h"
 #include "bullet_wetcloth/drawing/VertexBuffer.h"
 #include "bullet_wetcloth/effects/Absorption.h"
+#include "bullet_wetcloth/effects/Adjust.h"
 #include "bullet_wetcloth/effects/Cling.h"
 #include "bullet_wetcloth/effects/CollisionAudit.h"
 #include "bullet_wetcloth/effects/ContactWetting.h"

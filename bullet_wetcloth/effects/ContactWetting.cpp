@@ -24,6 +24,19 @@ void requireFilm(const std::string& field, double water) {
   if (!(water >= 0)) rejectValue(field, water, ">= 0 (infinite is allowed)");
 }
 
+void requireValid(const ContactWetting::Parameters& parameters) {
+  requireNotNegative("ContactWetting.rate", parameters.rate);
+  const std::vector<ContactWetting::WetBody>& bodies = parameters.wetBodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::string field = "ContactWetting.wetBodies[" + std::to_string(i) + "]";
+    if (!bodies[i].body) reject(field + ".body", "must not be null");
+    requireFilm(field + ".water", bodies[i].water);
+    for (std::size_t k = 0; k < i; ++k) {
+      if (bodies[k].body == bodies[i].body) reject(field + ".body", "is there twice");
+    }
+  }
+}
+
 // The part of `mass` that a node has room for, so that not even a rounding goes above its capacity.
 double fitting(const Water& water, std::size_t node, double mass) {
   const double capacity = water.capacity(node);
@@ -73,22 +86,19 @@ double equalisingFlow(double difference, double responseA, double responseB, dou
   return difference * -std::expm1(-conductance * response) / response;
 }
 
-ContactWetting::ContactWetting(Parameters parameters) : m_parameters(std::move(parameters)) {
-  requireNotNegative("ContactWetting.rate", m_parameters.rate);
-  const std::vector<WetBody>& bodies = m_parameters.wetBodies;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const std::string field = "ContactWetting.wetBodies[" + std::to_string(i) + "]";
-    if (!bodies[i].body) reject(field + ".body", "must not be null");
-    requireFilm(field + ".water", bodies[i].water);
-    for (std::size_t k = 0; k < i; ++k) {
-      if (bodies[k].body == bodies[i].body) reject(field + ".body", "is there twice");
-    }
-  }
+ContactWetting::ContactWetting(Parameters parameters) { setParameters(std::move(parameters)); }
+
+void ContactWetting::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  requireContacts(parameters);
+  m_parameters = std::move(parameters);
 }
 
-void ContactWetting::setRate(double rate) {
-  requireNotNegative("ContactWetting.rate", rate);
-  m_parameters.rate = rate;
+void ContactWetting::requireContacts(const Parameters& parameters) const {
+  if (!parameters.wetBodies.empty() && !m_whyNoRigidContacts.empty()) {
+    reject("ContactWetting.wetBodies", m_whyNoRigidContacts);
+  }
+  if (parameters.cloths && !m_whyNoFaceContacts.empty()) reject("ContactWetting.cloths", m_whyNoFaceContacts);
 }
 
 void ContactWetting::setFilm(const btCollisionObject& body, double water) {
@@ -117,13 +127,8 @@ double* ContactWetting::filmOn(const btCollisionObject* body) {
 
 void ContactWetting::attach(WetCloth& cloth) {
   m_whyNoRigidContacts = whyNoRigidContacts(cloth.body(), cloth.isInDeformableWorld());
-  if (!m_parameters.wetBodies.empty() && !m_whyNoRigidContacts.empty()) {
-    reject("ContactWetting.wetBodies", m_whyNoRigidContacts);
-  }
-  const std::string whyNoCloths = whyNoFaceContacts(cloth.body(), cloth.isInDeformableWorld());
-  if (m_parameters.cloths && !whyNoCloths.empty()) {
-    reject("ContactWetting.cloths", whyNoCloths);
-  }
+  m_whyNoFaceContacts = whyNoFaceContacts(cloth.body(), cloth.isInDeformableWorld());
+  requireContacts(m_parameters);
   m_hasNodeContacts = whyNoNodeContacts(cloth.body(), cloth.isInDeformableWorld()).empty();
   cloth.restMesh();
   m_contactsOfNode.resize(std::max(m_contactsOfNode.size(), cloth.water().size()));

@@ -16,6 +16,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+void requireValid(const Immersion::Parameters& parameters) {
+  if (parameters.surface) requireValid("Immersion.surface", *parameters.surface);
+}
+
 // Bullet's own comparison looks at the fourth number, too, which means nothing.
 bool isSame(const btVector3& a, const btVector3& b) { return a.x() == b.x() && a.y() == b.y() && a.z() == b.z(); }
 
@@ -30,13 +34,11 @@ double immersionShare(double depth, double dt, double timeConstant) {
   return depth > 0 ? exponentialShare(dt / timeConstant) : 0;
 }
 
-Immersion::Immersion(Parameters parameters) : m_parameters(parameters) {
-  if (m_parameters.surface) requireValid("Immersion.surface", *m_parameters.surface);
-}
+Immersion::Immersion(Parameters parameters) { setParameters(parameters); }
 
-void Immersion::setSurface(const std::optional<WaterSurface>& surface) {
-  if (surface) requireValid("Immersion.surface", *surface);
-  m_parameters.surface = surface;
+void Immersion::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  m_parameters = parameters;  // apply() notices another surface
 }
 
 void Immersion::attach(WetCloth& cloth) {

@@ -22,6 +22,13 @@ constexpr double kEarthGravity = 9.81;  // [m/s^2]
 constexpr double kMostSeepageSubsteps = 64;
 constexpr double kLargestSeepageExponent = 100;
 
+void requireValid(const Seepage::Parameters& parameters) {
+  requireNotNegative("Seepage.speed", parameters.speed);
+  if (!(parameters.exponent >= 1 && parameters.exponent <= kLargestSeepageExponent)) {
+    rejectValue("Seepage.exponent", parameters.exponent, "in [1, 100]");
+  }
+}
+
 // With the nodes' conductivities known.
 double upwindFlow(double conductance, double speed, double first, double second, double drop) {
   return conductance * speed * (drop > 0 ? first : second) * drop;
@@ -41,11 +48,12 @@ double seepageFlow(double conductance, double speed, double exponent, double fir
                     relativeConductivity(secondSaturation, exponent), drop);
 }
 
-Seepage::Seepage(Parameters parameters) : m_parameters(parameters), m_flow(std::make_unique<EdgeFlow>()) {
-  requireNotNegative("Seepage.speed", m_parameters.speed);
-  if (!(m_parameters.exponent >= 1 && m_parameters.exponent <= kLargestSeepageExponent)) {
-    rejectValue("Seepage.exponent", m_parameters.exponent, "in [1, 100]");
-  }
+Seepage::Seepage(Parameters parameters) : m_flow(std::make_unique<EdgeFlow>()) { setParameters(parameters); }
+
+void Seepage::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  m_parameters = parameters;
+  m_steadyState.restart();
 }
 
 Seepage::~Seepage() = default;

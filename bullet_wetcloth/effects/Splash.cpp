@@ -30,13 +30,13 @@ void requireValid(const Splash::Cone& cone) {
   requirePositive("Splash.region.reach", cone.reach);
 }
 
-void requireRegion(const Splash::Region& region) {
-  std::visit([](const auto& shape) { requireValid(shape); }, region);
-}
-
-void requireVelocity(const btVector3& velocity) {
-  requireFinite("Splash.velocity", velocity);
-  if (directionOf(velocity).isZero()) reject("Splash.velocity", "must not be of length 0: it tells where to");
+void requireValid(const Splash::Parameters& parameters) {
+  std::visit([](const auto& shape) { requireValid(shape); }, parameters.region);
+  requireFinite("Splash.velocity", parameters.velocity);
+  if (directionOf(parameters.velocity).isZero()) {
+    reject("Splash.velocity", "must not be of length 0: it tells where to");
+  }
+  requireNotNegative("Splash.flux", parameters.flux);
 }
 
 double flowOf(const Splash::Sphere& sphere, double flux) { return kPi * sphere.radius * sphere.radius * flux; }
@@ -54,27 +54,11 @@ double coneFlow(double halfAngle, double flux, double reach) {
   return 4 * kPi * half * half * reach * reach * flux;
 }
 
-Splash::Splash(Parameters parameters) : m_parameters(parameters) {
-  requireRegion(m_parameters.region);
-  requireVelocity(m_parameters.velocity);
-  requireNotNegative("Splash.flux", m_parameters.flux);
-}
+Splash::Splash(Parameters parameters) { setParameters(parameters); }
 
-void Splash::setRegion(const Region& region) {
-  requireRegion(region);
-  m_parameters.region = region;
-  m_steadyState.restart();
-}
-
-void Splash::setVelocity(const btVector3& velocity) {
-  requireVelocity(velocity);
-  m_parameters.velocity = velocity;
-  m_steadyState.restart();
-}
-
-void Splash::setFlux(double flux) {
-  requireNotNegative("Splash.flux", flux);
-  m_parameters.flux = flux;
+void Splash::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  m_parameters = parameters;
   m_steadyState.restart();
 }
 

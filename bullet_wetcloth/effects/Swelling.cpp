@@ -10,7 +10,8 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-void requireStrain(double strain) {
+void requireValid(const Swelling::Parameters& parameters) {
+  const double strain = parameters.saturatedStrain;
   if (!(strain > -0.5 && strain < 0.5)) rejectValue("Swelling.saturatedStrain", strain, "in (-0.5, 0.5)");
 }
 
@@ -23,11 +24,11 @@ void setRestLength(btSoftBody::Link& link, btScalar length) {
 
 double swellingStrain(double saturation, double saturatedStrain) { return saturatedStrain * saturation; }
 
-Swelling::Swelling(Parameters parameters) : m_parameters(parameters) { requireStrain(m_parameters.saturatedStrain); }
+Swelling::Swelling(Parameters parameters) { setParameters(parameters); }
 
-void Swelling::setSaturatedStrain(double strain) {
-  requireStrain(strain);
-  m_parameters.saturatedStrain = strain;
+void Swelling::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  m_parameters = parameters;
   m_isStale = true;
 }
 

@@ -261,7 +261,7 @@ TEST(ContactWettingParameters, AreChecked) {
   EXPECT_EQ(why([](auto& p) { p.wetBodies.push_back(p.wetBodies[0]); }),
             "ContactWetting.wetBodies[1].body: is there twice");
   ContactWetting wetting({});
-  EXPECT_THROW(wetting.setRate(-1), std::invalid_argument);
+  EXPECT_THROW(adjust(wetting, [](auto& p) { p.rate = -1; }), std::invalid_argument);
   EXPECT_THROW(wetting.setFilm(object, -1), std::invalid_argument);
   EXPECT_EQ(wetting.film(object), 0);
   wetting.setFilm(object, 3);
