@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/cli/CommandLine.h"
 
+#include "bullet_wetcloth/Version.h"
 #include "command/ccd/CcdCommand.h"
 #include "command/ccd/CcdMethod.h"
 #include "command/cli/Errors.h"
@@ -26,10 +27,6 @@
 #include <cmath>
 #include <string>
 #include <vector>
-
-#ifndef WETCLOTH_VERSION
-#define WETCLOTH_VERSION "0.1.0"
-#endif
 
 namespace command {
 namespace {
@@ -330,7 +327,7 @@ void requireKnownOptions(const CLI::App& command, int count, char** arguments) {
 int runCommandLine(int count, char** arguments) {
   CLI::App app("Runs scenes with cloth that gets wet, in Bullet, and compares them with Bullet as it is.", "wetcloth");
   app.footer(examples);
-  app.set_version_flag("--version", "wetcloth " WETCLOTH_VERSION);
+  app.set_version_flag("--version", "wetcloth " WETCLOTH_VERSION_STRING);
   app.require_subcommand(1);
   RunOptions run;
   FallOptions fall;
