@@ -49,7 +49,7 @@ void EffectSwitches::equip(command::Scene& scene) {
   for (Switch& each : m_switches) each.waitsForReset = false;
   for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) {
     std::vector<command::EffectScene>& effects = scene.cloths[cloth].effects;
-    effects = {beginning(Stage::sources), commitEnd()};
+    effects = {beginning(Stage::observe), beginning(Stage::sources), commitEnd()};
     for (std::size_t i = 0; i < m_rows.size(); ++i) {
       if (m_switches[i].isOn && m_rows[i].perCloth[cloth]) effects.push_back(effectScene(i, cloth));
     }

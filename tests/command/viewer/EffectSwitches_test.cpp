@@ -98,8 +98,8 @@ TEST(EffectSwitches, AnEffectOfTheSceneStaysWithItsCloth) {
   run(live, 5);
   EXPECT_GT(live.world().cloths()[0]->meanSaturation(), 0);
   EXPECT_EQ(live.world().cloths()[1]->meanSaturation(), 0);
-  EXPECT_EQ(live.world().cloths()[0]->effects().size(), 2u + 3 * 2u);
-  EXPECT_EQ(live.world().cloths()[1]->effects().size(), 2u + 1 * 2u);
+  EXPECT_EQ(live.world().cloths()[0]->effects().size(), 3u + 3 * 2u);
+  EXPECT_EQ(live.world().cloths()[1]->effects().size(), 3u + 1 * 2u);
 }
 
 TEST(EffectSwitches, EachEffectThatIsOnTakesTimeAndTheyAreNoLongerThanTheStep) {
