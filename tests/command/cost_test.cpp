@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "tests/command/Command.h"
 
-#include "command/scene/SceneKeys.h"
+#include "command/scene/EffectCatalogue.h"
 
 #include <gtest/gtest.h>
 
@@ -64,8 +64,8 @@ TEST(Cost, WithoutASceneEveryEffectThatASceneCanHave) {
   EXPECT_EQ(result.at("world"), "soft_rigid");
   EXPECT_EQ(result.at("steps"), 1);
   const std::vector<std::string> names = namesIn(result);
-  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()),
-            std::set<std::string>(command::keys::effects.keys.begin(), command::keys::effects.keys.end()));
+  const std::vector<std::string> keys = command::effectKeys(command::effectCatalogue()).keys;
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()), std::set<std::string>(keys.begin(), keys.end()));
   expectConsistent(result);
 }
 
