@@ -2,6 +2,7 @@
 // The catalogue of effects: what it says is so, and an effect that only it knows is one like any other.
 
 #include "command/scene/EffectCatalogue.h"
+#include "command/cli/Errors.h"
 #include "command/scene/BulletWorld.h"
 #include "command/scene/DryScene.h"
 #include "command/scene/SceneReader.h"
@@ -9,7 +10,7 @@
 #include "tests/command/Command.h"
 #include "tests/command/MadeUpEffect.h"
 
-#include <BulletSoftBody/btSoftBodyHelpers.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
 
 #include <gtest/gtest.h>
 
@@ -17,8 +18,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <set>
 #include <stdexcept>
+#include <string>
 
 namespace wetcloth_test {
 namespace {
@@ -31,7 +34,7 @@ Scene sceneForAll() {
   scene.file = "test";
   scene.water = WaterScene{0.5};
   scene.colliders.emplace_back(Sphere{btVector3(0, 0, 0), 0.1});
-  ClothScene cloth;
+  command::ClothScene cloth;
   cloth.shape = wetcloth::ClothPatch();
   scene.cloths = {cloth};
   return scene;
@@ -59,7 +62,7 @@ std::string refusal(const EffectEntry& entry, const Lack& lack) {
   JsonCursor cursor(entry.example, scene.file);
   cursor.expectObject(entry.keys);
   const AddEffect add = entry.read(cursor, {scene, scene.cloths[0]});
-  BulletWorld world(BulletWorld::Settings{});
+  command::BulletWorld world(command::BulletWorld::Settings{});
   if (!lack.water) world.worldInfo().water_normal = btVector3(0, 1, 0);
   const Colliders colliders{
       &world.addStatic(std::make_unique<btSphereShape>(btScalar(0.1)), btTransform::getIdentity())};

@@ -3,6 +3,7 @@
 // other steps are the command's business.
 
 #include "command/stability/StabilityTable.h"
+#include "command/cli/Errors.h"
 #include "command/stability/CaseRun.h"
 #include "command/stability/CaseScene.h"
 #include "command/stability/SceneMeter.h"
