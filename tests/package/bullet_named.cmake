@@ -21,7 +21,7 @@ foreach(name IN ITEMS BULLET_ROOT Bullet_ROOT BULLET_ROOT_DIR BulletSoftBody_ROO
   unset(ENV{${name}})
 
   refused("-D${name}=${WORK_DIR}/nowhere"
-          MATCHES "was not found in ${name}, ${WORK_DIR}/nowhere: no [^ ]*btSoftBody.h in .*, and no library BulletSoftBody")
+          MATCHES "was not found in ${name}, ${WORK_DIR}/nowhere: no [^ ]*btSoftBody.h in .*, and no library Bullet")
 endforeach()
 
 # The command line is nearer than the environment.

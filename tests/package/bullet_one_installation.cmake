@@ -25,6 +25,9 @@ fake_prefix("${half}")
 file(REMOVE_RECURSE "${half}/lib")
 fake_libraries("${half}/lib" float32 "" BulletSoftBody BulletDynamics BulletCollision)
 half_is_refused("it has headers, and no library LinearMath in its lib")
+# Two builds, each with a part of its own
+fake_libraries("${half}/lib64" float32 "" LinearMath)
+half_is_refused("it has headers, and no library LinearMath in its lib")
 
 # Half an installation that comes later is nobody's business.
 search_in("${whole}" "${half}")

@@ -14,6 +14,7 @@ endforeach()
 fake_headers("${prefix}" 324)
 found("${prefix}" "-DBULLET_ROOT=${prefix}" "-DASKED=3.23")
 must_match("${output}" "version 3.24")
-refused("-DBULLET_ROOT=${prefix}" "-DASKED=3.25 EXACT" MATCHES "version 3.24, and it has to be exactly 3.25: Bullet keeps")
+refused("-DBULLET_ROOT=${prefix}" "-DASKED=3.25 EXACT"
+        MATCHES "version 3.24, and it has to be exactly 3.25: Bullet keeps")
 refused("-DBULLET_ROOT=${prefix}" "-DASKED=3.23 COMPONENTS float64"
         MATCHES "has no libraries of component float64. A float64 program does not link")
