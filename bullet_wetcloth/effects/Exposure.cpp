@@ -41,7 +41,11 @@ void Exposure::requireSize(const char* field, std::size_t nodes) const {
 }
 
 void Exposure::requireSize(const char* field, std::size_t nodes, const Exposure& before) const {
-  if (m_perNode.size() != before.m_perNode.size()) requireSize(field, nodes);
+  const auto sizeOf = [](const Exposure& exposure) {
+    const auto* const perNode = std::get_if<std::vector<double>>(&exposure.m_value);
+    return perNode ? perNode->size() : 0;
+  };
+  if (sizeOf(*this) != sizeOf(before)) requireSize(field, nodes);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "bullet_wetcloth/Export.h"
 #include "bullet_wetcloth/Precision.h"
 
 #include <LinearMath/btVector3.h>
