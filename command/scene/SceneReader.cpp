@@ -2,6 +2,7 @@
 #include "command/scene/SceneReader.h"
 
 #include "command/cli/Errors.h"
+#include "command/cli/ProgramFolder.h"
 #include "command/scene/JsonCursor.h"
 #include "command/scene/ObjReader.h"
 #include "command/scene/Quality.h"
@@ -11,6 +12,8 @@
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 
 namespace command {
 namespace {
@@ -281,16 +284,26 @@ void readWorld(const JsonCursor& cursor, Scene& scene) {
   }
 }
 
+/// The file itself or, for a bare name that is not in the working directory, the scene that goes with the command
+std::string sceneFile(const std::string& name) {
+  std::error_code ignored;
+  if (std::filesystem::path(name).has_parent_path() || std::filesystem::exists(name, ignored)) return name;
+  const std::string file = dataFile("scenes/" + name);
+  return std::filesystem::is_regular_file(file, ignored) ? file : name;
+}
+
 }  // namespace
 
-PrecisionWish readPrecision(const std::string& file) {
+PrecisionWish readPrecision(const std::string& given) {
+  const std::string file = sceneFile(given);
   const Json json = loadJson(file);
   JsonCursor cursor(json, file);
   cursor.expectObject(keys::scene);
   return {precisionAt(cursor), file + ": /precision"};
 }
 
-Scene readScene(const std::string& file, const EffectCatalogue& catalogue) {
+Scene readScene(const std::string& given, const EffectCatalogue& catalogue) {
+  const std::string file = sceneFile(given);
   const Json json = loadJson(file);
   JsonCursor cursor(json, file);
   cursor.expectObject(keys::scene);
