@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 #include "command/accuracy/ConvergenceOrder.h"
-#include "command/accuracy/HangingCloth.h"
+#include "command/accuracy/SwingingCloth.h"
 #include "command/accuracy/Studies.h"
 
 #include <cmath>
@@ -63,7 +63,7 @@ void addSettings(Plan& plan, const Effort& effort, double duration,
     }
     if (solver.kind == Kind::hookeSprings) setting.method += ", " + iterations;
     setting.knob = solver.kind == Kind::links ? 1. / solver.iterations : solver.substep();
-    setting.nodes = HangingCloth::side * HangingCloth::side;
+    setting.nodes = SwingingCloth::side * SwingingCloth::side;
     setting.steps = 60 * duration * solver.substeps;
     setting.simulatedSeconds = duration;
     setting.substep = solver.substep();
@@ -83,22 +83,22 @@ Plan clothPlan() {
 const char* const verlet = "mass-spring system in double by velocity Verlet, step 50 us";
 
 std::vector<Study> studySag(const Effort& effort, const TellProgress& tell) {
-  const HangingCloth cloth;
+  const SwingingCloth cloth;
   const double sag = sagOf(recordReference(cloth, referenceStep, sagDuration));
   const double coarse = sagOf(recordReference(cloth, 2 * referenceStep, sagDuration));
   Plan plan = clothPlan();
   plan.measures = {{"cloth_sag", "Sag of a hanging cloth of 1 m with springs of 1 kN/m",
                     "error of the lower edge's mean height, of the cloth's length", verlet,
-                    richardsonError(coarse, sag, 2, 2) / HangingCloth::length}};
+                    richardsonError(coarse, sag, 2, 2) / SwingingCloth::length}};
   addSettings(plan, effort, sagDuration, [cloth, sag](const ClothSolver& solver) {
     const ClothRecord run = record(cloth, solver, sagDuration);
-    return Outcome{{std::fabs(sagOf(run) - sag) / HangingCloth::length}, run.seconds};
+    return Outcome{{std::fabs(sagOf(run) - sag) / SwingingCloth::length}, run.seconds};
   });
   return carryOut(plan, effort, tell);
 }
 
 std::vector<Study> studySwing(const Effort& effort, const TellProgress& tell) {
-  const HangingCloth cloth{swingAngle};
+  const SwingingCloth cloth{swingAngle};
   const ClothRecord fine = recordReference(cloth, referenceStep, swingDuration);
   const ClothRecord coarse = recordReference(cloth, 2 * referenceStep, swingDuration);
   const double period = periodOf(fine);

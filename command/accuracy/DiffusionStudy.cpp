@@ -2,7 +2,7 @@
 #include "command/accuracy/Specimen.h"
 #include "command/accuracy/Studies.h"
 
-#include "command/run/ProcessorTime.h"
+#include "command/timing/ProcessorTime.h"
 
 #include <cmath>
 #include <string>

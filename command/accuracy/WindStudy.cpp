@@ -4,7 +4,7 @@
 #include "command/accuracy/Studies.h"
 
 #include "command/fall/FallPhysics.h"
-#include "command/run/ProcessorTime.h"
+#include "command/timing/ProcessorTime.h"
 
 #include <algorithm>
 #include <cmath>

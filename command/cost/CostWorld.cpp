@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/cost/CostWorld.h"
 
-#include "command/run/ProcessorTime.h"
+#include "command/timing/ProcessorTime.h"
 
 #include <algorithm>
 #include <cctype>

@@ -19,14 +19,14 @@ Vector3 Bounds::middle() const { return (low + high) * 0.5F; }
 
 float Bounds::diagonal() const { return length(high - low); }
 
-Bounds boundsOf(const Recording& recording) {
+Bounds boundsOf(const FrameSequence& sequence) {
   Bounds bounds;
-  for (const Frame& frame : recording.frames) {
+  for (const Frame& frame : sequence.frames) {
     for (const ClothState& cloth : frame.cloths) {
       for (const Vector3& position : cloth.positions) bounds.add(position);
     }
   }
-  for (const Solid& solid : recording.scenery.solids) {
+  for (const Solid& solid : sequence.scenery.solids) {
     for (const Vector3& vertex : solid.vertices) bounds.add(vertex);
   }
   return bounds;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 namespace pictures {
 
@@ -16,6 +16,6 @@ struct Bounds {
 };
 
 /// Around all cloths in all frames, and the solids.
-Bounds boundsOf(const Recording& recording);
+Bounds boundsOf(const FrameSequence& sequence);
 
 }  // namespace pictures

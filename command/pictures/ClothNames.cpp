@@ -38,9 +38,9 @@ std::vector<std::string> uniqueNames(const std::vector<std::string>& names) {
   return unique;
 }
 
-std::vector<std::string> clothNames(const Recording& recording) {
+std::vector<std::string> clothNames(const FrameSequence& sequence) {
   std::vector<std::string> names;
-  for (const ClothShape& cloth : recording.cloths) names.push_back(cloth.name);
+  for (const ClothShape& cloth : sequence.cloths) names.push_back(cloth.name);
   return uniqueNames(names);
 }
 

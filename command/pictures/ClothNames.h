@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@ namespace pictures {
 std::vector<std::string> uniqueNames(const std::vector<std::string>& names);
 
 /// The cloths' names, made unique.
-std::vector<std::string> clothNames(const Recording& recording);
+std::vector<std::string> clothNames(const FrameSequence& sequence);
 
 /// The text as a comment may have it in any format: what is no printable ASCII becomes a space.
 std::string onOneLine(std::string text);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "command/pictures/Colouring.h"
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 #include <string>
 #include <vector>

@@ -118,12 +118,12 @@ std::string script() {
 
 }  // namespace
 
-void writeHtml(const Recording& recording, const std::string& path) {
+void writeHtml(const FrameSequence& sequence, const std::string& path) {
   nlohmann::json head;
-  const std::string bytes = packed(recording, head);
-  head["scenery"] = jsonOf(recording.scenery);
-  head["series"] = jsonOf(recording.series);
-  head["view"] = jsonOf(fitView(recording.scenery, recording.frames, aspect));
+  const std::string bytes = packed(sequence, head);
+  head["scenery"] = jsonOf(sequence.scenery);
+  head["series"] = jsonOf(sequence.series);
+  head["view"] = jsonOf(fitView(sequence.scenery, sequence.frames, aspect));
   head["shaders"] = shaders();
   std::string page(embedded::page_html);
   // From the end of the page to its start: a title may look like a place.
@@ -131,7 +131,7 @@ void writeHtml(const Recording& recording, const std::string& path) {
                                                                     {"{{head}}", scriptSafe(head)},
                                                                     {"{{script}}", script()},
                                                                     {"{{style}}", std::string(embedded::page_css)},
-                                                                    {"{{title}}", escaped(recording.scenery.title)}};
+                                                                    {"{{title}}", escaped(sequence.scenery.title)}};
   for (const auto& [place, text] : parts) page.replace(page.find(place), place.size(), text);
   writeFile(path, page);
 }

@@ -23,13 +23,13 @@ std::vector<Texture> inUnitSquare(std::vector<Texture> texture) {
   return texture;
 }
 
-void writeCloth(const Recording& recording, std::size_t cloth, const std::string& name, const std::string& path) {
-  const ClothShape& shape = recording.cloths[cloth];
+void writeCloth(const FrameSequence& sequence, std::size_t cloth, const std::string& name, const std::string& path) {
+  const ClothShape& shape = sequence.cloths[cloth];
   OutputFile file(path);
   std::ostream& out = file.stream();
   out.precision(9);
-  out << "# " << onOneLine(recording.scenery.title) << ", metres\no " << name << "\n";
-  for (const Vector3& p : recording.frames.front().cloths[cloth].positions) {
+  out << "# " << onOneLine(sequence.scenery.title) << ", metres\no " << name << "\n";
+  for (const Vector3& p : sequence.frames.front().cloths[cloth].positions) {
     out << "v " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
   }
   for (const Texture& place : inUnitSquare(shape.texture)) out << "vt " << place[0] << ' ' << place[1] << '\n';
@@ -67,18 +67,18 @@ void writeScenery(const std::vector<StandingMesh>& meshes, const std::string& fo
 
 }  // namespace
 
-void writeObjAndPointCaches(const Recording& recording, const std::string& folder) {
+void writeObjAndPointCaches(const FrameSequence& sequence, const std::string& folder) {
   const std::string inFolder = folder + "/";
   std::vector<std::string> names{"scenery"};
-  for (const ClothShape& cloth : recording.cloths) names.push_back(cloth.name);
+  for (const ClothShape& cloth : sequence.cloths) names.push_back(cloth.name);
   names = uniqueNames(names);
-  for (std::size_t cloth = 0; cloth < recording.cloths.size(); ++cloth) {
+  for (std::size_t cloth = 0; cloth < sequence.cloths.size(); ++cloth) {
     const std::string& name = names[cloth + 1];
     const std::string path = inFolder + name;
-    writeCloth(recording, cloth, name, path + ".obj");
-    writePointCache(recording, cloth, path + ".pc2");
+    writeCloth(sequence, cloth, name, path + ".obj");
+    writePointCache(sequence, cloth, path + ".pc2");
   }
-  const std::vector<StandingMesh> meshes = standingMeshes(recording);
+  const std::vector<StandingMesh> meshes = standingMeshes(sequence);
   if (!meshes.empty()) writeScenery(meshes, folder);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 #include <string>
 
@@ -10,6 +10,6 @@ namespace pictures {
 /// Writes into a folder for each cloth CLOTH.obj, its mesh at the first frame with texture coordinates in [0, 1], and
 /// CLOTH.pc2, its vertices at every frame; and scenery.obj with what stands around, if anything does.
 /// Throws std::runtime_error that says why a file could not be written.
-void writeObjAndPointCaches(const Recording& recording, const std::string& folder);
+void writeObjAndPointCaches(const FrameSequence& sequence, const std::string& folder);
 
 }  // namespace pictures

@@ -36,16 +36,16 @@ std::uint32_t folded(int value) {
   return static_cast<std::uint32_t>(wrapped < 0 ? -2 * wrapped - 1 : 2 * wrapped);
 }
 
-Bounds boxOf(const Recording& recording) {
-  Bounds box = boundsOf(recording);
-  for (const Frame& frame : recording.frames) {
+Bounds boxOf(const FrameSequence& sequence) {
+  Bounds box = boundsOf(sequence);
+  for (const Frame& frame : sequence.frames) {
     for (const Drop& drop : frame.drops) box.add(drop.position);
   }
   return box;
 }
 
-Range rangeOf(const Recording& recording, Values values, Range range) {
-  for (const Frame& frame : recording.frames) {
+Range rangeOf(const FrameSequence& sequence, Values values, Range range) {
+  for (const Frame& frame : sequence.frames) {
     for (const ClothState& cloth : frame.cloths) {
       for (const float value : cloth.*values) range.high = std::max(range.high, value);
     }
@@ -55,21 +55,21 @@ Range rangeOf(const Recording& recording, Values values, Range range) {
 
 class Packer {
  public:
-  Packer(const Recording& recording, nlohmann::json& head)
-      : m_recording(recording), m_box(boxOf(recording)), m_head(head) {}
+  Packer(const FrameSequence& sequence, nlohmann::json& head)
+      : m_sequence(sequence), m_box(boxOf(sequence)), m_head(head) {}
 
   std::string pack() {
     m_head["box"] = {m_box.low, m_box.high};
     m_head["times"] = nlohmann::json::array();
-    for (const Frame& frame : m_recording.frames) m_head["times"].push_back(frame.time);
+    for (const Frame& frame : m_sequence.frames) m_head["times"].push_back(frame.time);
     const Range saturation{0, 1};
-    const Range stretch = rangeOf(m_recording, &ClothState::stretch, {1, 1.02F});
-    const Range speed = rangeOf(m_recording, &ClothState::speed, {0, 0.1F});
+    const Range stretch = rangeOf(m_sequence, &ClothState::stretch, {1, 1.02F});
+    const Range speed = rangeOf(m_sequence, &ClothState::speed, {0, 0.1F});
     m_head["ranges"] = {{"saturation", {saturation.low, saturation.high}},
                         {"stretch", {stretch.low, stretch.high}},
                         {"speed", {speed.low, speed.high}}};
-    for (std::size_t cloth = 0; cloth < m_recording.cloths.size(); ++cloth) {
-      putShape(m_recording.cloths[cloth]);
+    for (std::size_t cloth = 0; cloth < m_sequence.cloths.size(); ++cloth) {
+      putShape(m_sequence.cloths[cloth]);
       putPositions(cloth);
       putValues(cloth, &ClothState::saturation, saturation);
       putValues(cloth, &ClothState::stretch, stretch);
@@ -113,7 +113,7 @@ class Packer {
     for (std::size_t i = 0; i < 3; ++i) {
       std::vector<int> last, before;
       std::string low, high;
-      for (const Frame& frame : m_recording.frames) {
+      for (const Frame& frame : m_sequence.frames) {
         std::vector<int> now;
         for (const Vector3& p : frame.cloths[cloth].positions) now.push_back(axis(i).quantized(p[i], 65535));
         if (last.empty()) last = before = std::vector<int>(now.size(), 0);
@@ -134,8 +134,8 @@ class Packer {
 
   /// Of each node: the change since the frame before, less that of the node before it.
   void putValues(std::size_t cloth, Values values, const Range& range) {
-    std::vector<int> last(m_recording.cloths[cloth].texture.size(), 0);
-    for (const Frame& frame : m_recording.frames) {
+    std::vector<int> last(m_sequence.cloths[cloth].texture.size(), 0);
+    for (const Frame& frame : m_sequence.frames) {
       int left = 0;
       for (std::size_t node = 0; node < last.size(); ++node) {
         const int now = range.quantized((frame.cloths[cloth].*values)[node], 255);
@@ -148,7 +148,7 @@ class Packer {
 
   void putSolids() {
     m_head["solids"] = nlohmann::json::array();
-    for (const Solid& solid : m_recording.scenery.solids) {
+    for (const Solid& solid : m_sequence.scenery.solids) {
       m_head["solids"].push_back({{"vertices", solid.vertices.size()}, {"triangles", solid.triangles.size()}});
       putAll(solid.vertices);
       putAll(solid.normals);
@@ -158,13 +158,13 @@ class Packer {
 
   void putRods() {
     std::vector<Rods> rods;
-    for (std::size_t i = 0; i < m_recording.cloths.size(); ++i) {
-      rods.emplace_back(m_recording.cloths[i], m_recording.frames.front().cloths[i]);
+    for (std::size_t i = 0; i < m_sequence.cloths.size(); ++i) {
+      rods.emplace_back(m_sequence.cloths[i], m_sequence.frames.front().cloths[i]);
     }
-    for (const Frame& frame : m_recording.frames) {
+    for (const Frame& frame : m_sequence.frames) {
       std::vector<Rod> all;
       for (std::size_t i = 0; i < rods.size(); ++i) {
-        const std::vector<Rod> some = rods[i].at(frame.cloths[i], m_recording.scenery.grounds);
+        const std::vector<Rod> some = rods[i].at(frame.cloths[i], m_sequence.scenery.grounds);
         all.insert(all.end(), some.begin(), some.end());
       }
       putUint16(m_bytes, static_cast<int>(all.size()));
@@ -178,11 +178,11 @@ class Packer {
 
   void putDrops() {
     Range radius{0, 1e-6F};
-    for (const Frame& frame : m_recording.frames) {
+    for (const Frame& frame : m_sequence.frames) {
       for (const Drop& drop : frame.drops) radius.high = std::max(radius.high, drop.radius);
     }
     m_head["largestDrop"] = radius.high;
-    for (const Frame& frame : m_recording.frames) {
+    for (const Frame& frame : m_sequence.frames) {
       const std::size_t count = std::min<std::size_t>(frame.drops.size(), 65535);
       putUint16(m_bytes, static_cast<int>(count));
       for (std::size_t drop = 0; drop < count; ++drop) {
@@ -194,7 +194,7 @@ class Packer {
     }
   }
 
-  const Recording& m_recording;
+  const FrameSequence& m_sequence;
   const Bounds m_box;
   nlohmann::json& m_head;
   std::string m_bytes;
@@ -202,6 +202,6 @@ class Packer {
 
 }  // namespace
 
-std::string packed(const Recording& recording, nlohmann::json& head) { return Packer(recording, head).pack(); }
+std::string packed(const FrameSequence& sequence, nlohmann::json& head) { return Packer(sequence, head).pack(); }
 
 }  // namespace pictures

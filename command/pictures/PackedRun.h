@@ -2,7 +2,7 @@
 #pragma once
 
 #include "command/pictures/Bounds.h"
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 #include <nlohmann/json.hpp>
 
@@ -10,9 +10,9 @@
 
 namespace pictures {
 
-/// A recording in few bytes, for page/unpack.js: not yet compressed, but so that deflate makes little of them.
+/// A sequence in few bytes, for page/unpack.js: not yet compressed, but so that deflate makes little of them.
 /// Positions have 16 bits per axis, in a box around the run; saturation, stretch and speed have 8.
 /// @param head  gets the counts and ranges that the bytes need to be understood
-std::string packed(const Recording& recording, nlohmann::json& head);
+std::string packed(const FrameSequence& sequence, nlohmann::json& head);
 
 }  // namespace pictures

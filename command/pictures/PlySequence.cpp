@@ -13,10 +13,10 @@
 namespace pictures {
 namespace {
 
-std::string header(const Recording& recording, const ClothShape& shape, double time, std::size_t vertexCount) {
+std::string header(const FrameSequence& sequence, const ClothShape& shape, double time, std::size_t vertexCount) {
   std::ostringstream text;
   text << "ply\nformat binary_little_endian 1.0\n"
-       << "comment " << onOneLine(recording.scenery.title) << ", " << onOneLine(shape.name) << "\n"
+       << "comment " << onOneLine(sequence.scenery.title) << ", " << onOneLine(shape.name) << "\n"
        << "comment time_s " << time << "\n"
        << "element vertex " << vertexCount << "\n";
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) text << "property float " << name << "\n";
@@ -27,11 +27,11 @@ std::string header(const Recording& recording, const ClothShape& shape, double t
   return text.str();
 }
 
-std::string plyBytes(const Recording& recording, std::size_t cloth, const Frame& frame) {
-  const ClothShape& shape = recording.cloths[cloth];
+std::string plyBytes(const FrameSequence& sequence, std::size_t cloth, const Frame& frame) {
+  const ClothShape& shape = sequence.cloths[cloth];
   const ClothState& state = frame.cloths[cloth];
   const std::vector<Vector3> normals = vertexNormals(state.positions, shape.triangles);
-  std::string bytes = header(recording, shape, frame.time, state.positions.size());
+  std::string bytes = header(sequence, shape, frame.time, state.positions.size());
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     for (const float x : state.positions[i]) putFloat(bytes, x);
     for (const float x : normals[i]) putFloat(bytes, x);
@@ -47,12 +47,12 @@ std::string plyBytes(const Recording& recording, std::size_t cloth, const Frame&
 
 }  // namespace
 
-void writePlySequence(const Recording& recording, const std::string& folder) {
-  const std::vector<std::string> names = clothNames(recording);
-  for (std::size_t frame = 0; frame < recording.frames.size(); ++frame) {
+void writePlySequence(const FrameSequence& sequence, const std::string& folder) {
+  const std::vector<std::string> names = clothNames(sequence);
+  for (std::size_t frame = 0; frame < sequence.frames.size(); ++frame) {
     for (std::size_t cloth = 0; cloth < names.size(); ++cloth) {
       writeFile(folder + "/" + numberedName(names[cloth], frame, ".ply"),
-                plyBytes(recording, cloth, recording.frames[frame]));
+                plyBytes(sequence, cloth, sequence.frames[frame]));
     }
   }
 }

@@ -23,11 +23,11 @@ std::string header(std::size_t pointCount, std::size_t sampleCount) {
 
 }  // namespace
 
-void writePointCache(const Recording& recording, std::size_t cloth, const std::string& path) {
+void writePointCache(const FrameSequence& sequence, std::size_t cloth, const std::string& path) {
   OutputFile file(path);
-  const std::string start = header(recording.cloths[cloth].texture.size(), recording.frames.size());
+  const std::string start = header(sequence.cloths[cloth].texture.size(), sequence.frames.size());
   file.stream().write(start.data(), static_cast<std::streamsize>(start.size()));
-  for (const Frame& frame : recording.frames) {
+  for (const Frame& frame : sequence.frames) {
     std::string bytes;
     for (const Vector3& position : frame.cloths[cloth].positions) {
       for (const float x : position) putFloat(bytes, x);

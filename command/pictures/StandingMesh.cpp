@@ -38,9 +38,9 @@ std::vector<Triangle> withArea(const Solid& solid) {
 
 }  // namespace
 
-std::vector<StandingMesh> standingMeshes(const Recording& recording) {
-  const Scenery& scenery = recording.scenery;
-  const Bounds bounds = boundsOf(recording);
+std::vector<StandingMesh> standingMeshes(const FrameSequence& sequence) {
+  const Scenery& scenery = sequence.scenery;
+  const Bounds bounds = boundsOf(sequence);
   std::vector<StandingMesh> meshes;
   for (const Solid& solid : scenery.solids) {
     meshes.push_back({"solid", solid.vertices, solid.normals, withArea(solid), {0.45F, 0.47F, 0.50F}});

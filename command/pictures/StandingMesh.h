@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 #include <string>
 #include <vector>
@@ -18,6 +18,6 @@ struct StandingMesh {
 };
 
 /// The solids, and of each ground and of the water a square that reaches well beyond the cloths of all frames.
-std::vector<StandingMesh> standingMeshes(const Recording& recording);
+std::vector<StandingMesh> standingMeshes(const FrameSequence& sequence);
 
 }  // namespace pictures

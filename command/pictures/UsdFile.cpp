@@ -50,7 +50,7 @@ std::vector<Vector3> extentOf(const std::vector<Vector3>& points) {
   return {bounds.low, bounds.high};
 }
 
-/// Frames recorded per second, which also is one of them when there is only one.
+/// Frames per second of the run, which also is one of them when there is only one.
 double frameRate(const std::vector<Frame>& frames) {
   const double duration = frames.back().time - frames.front().time;
   return duration > 0 ? static_cast<double>(frames.size() - 1) / duration : 1;
@@ -58,33 +58,33 @@ double frameRate(const std::vector<Frame>& frames) {
 
 class UsdWriter {
  public:
-  UsdWriter(const Recording& recording, std::ostream& out) : m_recording(recording), m_out(out) { m_out.precision(7); }
+  UsdWriter(const FrameSequence& sequence, std::ostream& out) : m_sequence(sequence), m_out(out) { m_out.precision(7); }
 
   void write() {
     head();
     m_out << "\ndef Xform \"scene\"\n{\n";
     std::vector<std::string> names;
-    for (const ClothShape& cloth : m_recording.cloths) names.push_back(cloth.name);
-    const std::vector<StandingMesh> standing = standingMeshes(m_recording);
+    for (const ClothShape& cloth : m_sequence.cloths) names.push_back(cloth.name);
+    const std::vector<StandingMesh> standing = standingMeshes(m_sequence);
     for (const StandingMesh& mesh : standing) names.push_back(mesh.name);
     names = uniqueNames(names);
-    for (std::size_t i = 0; i < m_recording.cloths.size(); ++i) cloth(i, names[i]);
-    for (std::size_t i = 0; i < standing.size(); ++i) stands(standing[i], names[m_recording.cloths.size() + i]);
+    for (std::size_t i = 0; i < m_sequence.cloths.size(); ++i) cloth(i, names[i]);
+    for (std::size_t i = 0; i < standing.size(); ++i) stands(standing[i], names[m_sequence.cloths.size() + i]);
     m_out << "}\n";
   }
 
  private:
   void head() {
-    const Vector3& up = m_recording.scenery.up;
-    const double rate = frameRate(m_recording.frames);
+    const Vector3& up = m_sequence.scenery.up;
+    const double rate = frameRate(m_sequence.frames);
     m_out << "#usda 1.0\n(\n    defaultPrim = \"scene\"\n    doc = \"" << title() << "\"\n    startTimeCode = 0\n"
-          << "    endTimeCode = " << m_recording.frames.size() - 1 << "\n    framesPerSecond = " << rate
+          << "    endTimeCode = " << m_sequence.frames.size() - 1 << "\n    framesPerSecond = " << rate
           << "\n    timeCodesPerSecond = " << rate << "\n    metersPerUnit = 1\n    upAxis = \""
           << (std::abs(up[2]) > std::abs(up[1]) ? 'Z' : 'Y') << "\"\n)\n";
   }
 
   std::string title() const {
-    std::string text = onOneLine(m_recording.scenery.title);
+    std::string text = onOneLine(m_sequence.scenery.title);
     for (char& c : text) {
       if (c == '"' || c == '\\') c = '\'';
     }
@@ -108,9 +108,9 @@ class UsdWriter {
   template <class ValuesAt>
   void sampled(const std::string& attribute, std::size_t cloth, ValuesAt valuesAt) {
     m_out << "        " << attribute << ".timeSamples = {\n";
-    for (std::size_t i = 0; i < m_recording.frames.size(); ++i) {
+    for (std::size_t i = 0; i < m_sequence.frames.size(); ++i) {
       m_out << "            " << i << ": ";
-      put(m_out, valuesAt(m_recording.frames[i].cloths[cloth]));
+      put(m_out, valuesAt(m_sequence.frames[i].cloths[cloth]));
       m_out << ",\n";
     }
     m_out << "        }\n";
@@ -123,7 +123,7 @@ class UsdWriter {
   }
 
   void cloth(std::size_t index, const std::string& name) {
-    const ClothShape& shape = m_recording.cloths[index];
+    const ClothShape& shape = m_sequence.cloths[index];
     beginMesh(name, shape.triangles, true);
     sampled("float3[] extent", index, [](const ClothState& state) { return extentOf(state.positions); });
     sampled("point3f[] points", index, [](const ClothState& state) { return state.positions; });
@@ -148,15 +148,15 @@ class UsdWriter {
 
   static constexpr const char* perVertex = " (\n            interpolation = \"vertex\"\n        )";
 
-  const Recording& m_recording;
+  const FrameSequence& m_sequence;
   std::ostream& m_out;
 };
 
 }  // namespace
 
-void writeUsd(const Recording& recording, const std::string& path) {
+void writeUsd(const FrameSequence& sequence, const std::string& path) {
   OutputFile file(path);
-  UsdWriter(recording, file.stream()).write();
+  UsdWriter(sequence, file.stream()).write();
   file.close();
 }
 

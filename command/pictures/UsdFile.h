@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 #include <string>
 
@@ -11,6 +11,6 @@ namespace pictures {
 /// primvars:displayColor (linear RGB) and primvars:wetness (water over capacity, [0, 1]), all by vertex, and
 /// primvars:st; a Mesh for each thing that stands around. A time code is a frame. upAxis is Y or Z, whichever is nearer
 /// to up. Throws std::runtime_error when the file could not be written.
-void writeUsd(const Recording& recording, const std::string& path);
+void writeUsd(const FrameSequence& sequence, const std::string& path);
 
 }  // namespace pictures

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 #include <cmath>
 

@@ -97,18 +97,18 @@ std::string polyData(const ClothShape& shape, const ClothState& state, double ti
 
 }  // namespace
 
-void writeVtkSeries(const Recording& recording, const std::string& folder) {
+void writeVtkSeries(const FrameSequence& sequence, const std::string& folder) {
   const std::string inFolder = folder + "/";
-  const std::vector<std::string> names = clothNames(recording);
+  const std::vector<std::string> names = clothNames(sequence);
   std::ostringstream list;
   list.precision(12);
   list << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
           "<Collection>\n";
-  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
-    const Frame& frame = recording.frames[i];
+  for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
+    const Frame& frame = sequence.frames[i];
     for (std::size_t cloth = 0; cloth < names.size(); ++cloth) {
       const std::string name = numberedName(names[cloth], i, ".vtp");
-      writeFile(inFolder + name, polyData(recording.cloths[cloth], frame.cloths[cloth], frame.time));
+      writeFile(inFolder + name, polyData(sequence.cloths[cloth], frame.cloths[cloth], frame.time));
       list << "<DataSet timestep=\"" << frame.time << "\" part=\"" << cloth << "\" name=\"" << names[cloth]
            << "\" file=\"" << name << "\"/>\n";
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 #include <string>
 
@@ -11,6 +11,6 @@ namespace pictures {
 /// run.pvd, which lists them with their times [s] for ParaView. Per point: wetness (water over capacity, [0, 1]),
 /// speed [m/s], stretch (largest of its links' length over length at rest), colour (sRGB, 8 bit), Normals.
 /// Throws std::runtime_error that says why a file could not be written.
-void writeVtkSeries(const Recording& recording, const std::string& folder);
+void writeVtkSeries(const FrameSequence& sequence, const std::string& folder);
 
 }  // namespace pictures

@@ -28,9 +28,9 @@ RenderResult drawFilm(const RenderJob&) { refuse(); }
 #include "command/cli/Progress.h"
 
 #include "command/pictures/FilmFile.h"
-#include "command/pictures/OffscreenContext.h"
+#include "command/pictures/gl/OffscreenContext.h"
 #include "command/pictures/PngFile.h"
-#include "command/pictures/Renderer.h"
+#include "command/pictures/gl/Renderer.h"
 #include "command/pictures/Strip.h"
 #include "command/pictures/View.h"
 
@@ -55,7 +55,7 @@ std::vector<Frame> sampleOf(const std::vector<Panel>& panels) {
   constexpr std::size_t most = 60;
   std::vector<Frame> sample;
   for (const Panel& panel : panels) {
-    const std::vector<Frame>& frames = panel.recording.frames;
+    const std::vector<Frame>& frames = panel.sequence.frames;
     const std::size_t stride = 1 + frames.size() / most;
     for (std::size_t i = 0; i < frames.size(); i += stride) sample.push_back(frames[i]);
     sample.push_back(frames.back());
@@ -97,29 +97,29 @@ class Drawing {
       m_areas.push_back({left, 0, (i + 1) * job.width / panels - left, job.height});
     }
     const Renderer::Area& area = m_areas.front();
-    m_view = pictures::fitView(job.panels.front().recording.scenery, sampleOf(job.panels),
+    m_view = pictures::fitView(job.panels.front().sequence.scenery, sampleOf(job.panels),
                                static_cast<float>(area.width) / static_cast<float>(area.height));
     for (const Panel& panel : job.panels) {
-      m_renderers.push_back(std::make_unique<Renderer>(panel.recording.scenery, panel.recording.cloths));
+      m_renderers.push_back(std::make_unique<Renderer>(panel.sequence.scenery, panel.sequence.cloths));
       m_renderers.back()->setColouring(job.colouring);
     }
     // The colours mean the same in all frames of all panels.
     for (const auto& renderer : m_renderers) {
       for (const Panel& panel : job.panels) {
-        for (const Frame& frame : panel.recording.frames) renderer->includeInColourBar(frame);
+        for (const Frame& frame : panel.sequence.frames) renderer->includeInColourBar(frame);
       }
     }
   }
 
-  std::size_t frameCount() const { return m_job.panels.front().recording.frames.size(); }
+  std::size_t frameCount() const { return m_job.panels.front().sequence.frames.size(); }
 
   Image draw(std::size_t index) {
     const auto start = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < m_renderers.size(); ++i) {
-      m_renderers[i]->draw(m_job.panels[i].recording.frames[index], m_view, m_areas[i]);
+      m_renderers[i]->draw(m_job.panels[i].sequence.frames[index], m_view, m_areas[i]);
       m_renderers[i]->writeHead(m_job.panels[i].heading, m_areas[i]);
     }
-    const pictures::Recording& last = m_job.panels.back().recording;  // the wet one
+    const pictures::FrameSequence& last = m_job.panels.back().sequence;  // the wet one
     m_renderers.back()->write(last.scenery.title, stateText(last.frames[index]), {0, 0, m_job.width, m_job.height});
     Image image = m_context.read();
     for (std::size_t i = 1; i < m_areas.size(); ++i) rule(image, m_areas[i].x);

@@ -5,7 +5,7 @@
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/cli/StagedOutput.h"
-#include "command/render/RecordRun.h"
+#include "command/render/SampleRun.h"
 #include "command/scene/SceneOptions.h"
 
 #include "command/pictures/HtmlPage.h"
@@ -39,7 +39,7 @@ struct Format {
   std::string explanation;
   StagedOutput::Kind kind;
   std::string suffix;  ///< of a file
-  std::function<void(const pictures::Recording&, const std::string&)> write;
+  std::function<void(const pictures::FrameSequence&, const std::string&)> write;
 };
 
 const std::vector<Format>& formats() {
@@ -91,28 +91,28 @@ nlohmann::ordered_json filesIn(const fs::path& out) {
   return list;
 }
 
-nlohmann::ordered_json jsonOf(const Scene& scene, const ExportOptions& options, const pictures::Recording& recording) {
+nlohmann::ordered_json jsonOf(const Scene& scene, const ExportOptions& options, const pictures::FrameSequence& sequence) {
   nlohmann::ordered_json json;
   json["scene"] = scene.name;
   json["precision"] = nameOf(ownPrecision);
   json["format"] = options.format;
-  json["frames"] = recording.frames.size();
+  json["frames"] = sequence.frames.size();
   json["fps"] = options.framesPerSecond;
-  json["end_s"] = recording.frames.back().time;
+  json["end_s"] = sequence.frames.back().time;
   json["cloths"] = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < recording.cloths.size(); ++i) {
-    json["cloths"].push_back({{"name", recording.cloths[i].name},
-                              {"nodes", recording.frames.back().cloths[i].positions.size()},
-                              {"triangles", recording.cloths[i].triangles.size()}});
+  for (std::size_t i = 0; i < sequence.cloths.size(); ++i) {
+    json["cloths"].push_back({{"name", sequence.cloths[i].name},
+                              {"nodes", sequence.frames.back().cloths[i].positions.size()},
+                              {"triangles", sequence.cloths[i].triangles.size()}});
   }
   json["files"] = filesIn(options.out);
   return json;
 }
 
-void write(const Format& format, const pictures::Recording& recording, const std::string& option,
+void write(const Format& format, const pictures::FrameSequence& sequence, const std::string& option,
            StagedOutput& output) {
   try {
-    format.write(recording, output.path());
+    format.write(sequence, output.path());
   } catch (const std::runtime_error& error) {
     throw RunError(option + ": " + error.what());
   }
@@ -129,12 +129,12 @@ void exportScene(const ExportOptions& options) {
   const Scene scene = prepareScene(options).scene;
   JsonOutput json(options.json);
   StagedOutput output(option, options.out, format.kind);
-  const pictures::Recording recording = recordRun(scene, options.framesPerSecond);
-  write(format, recording, option, output);
-  const nlohmann::ordered_json result = jsonOf(scene, options, recording);
+  const pictures::FrameSequence sequence = sampleRun(scene, options.framesPerSecond);
+  write(format, sequence, option, output);
+  const nlohmann::ordered_json result = jsonOf(scene, options, sequence);
   json.write(result);
   if (json.ownsStandardOutput()) return;
-  std::printf("%zu frames of %s, %g per second: %s\n", recording.frames.size(), scene.name.c_str(),
+  std::printf("%zu frames of %s, %g per second: %s\n", sequence.frames.size(), scene.name.c_str(),
               options.framesPerSecond, options.out.c_str());
 }
 

@@ -8,7 +8,7 @@
 #include "command/cli/StagedOutput.h"
 #include "command/render/DrawnPictures.h"
 #include "command/render/PictureSize.h"
-#include "command/render/RecordRun.h"
+#include "command/render/SampleRun.h"
 #include "command/render/RenderJob.h"
 #include "command/scene/DryScene.h"
 #include "command/scene/SceneOptions.h"
@@ -67,7 +67,7 @@ struct Product {
 void requireNothing(int /*width*/, int /*height*/) {}
 
 RenderResult writePage(const RenderJob& job) {
-  pictures::writeHtml(job.panels.back().recording, job.path);
+  pictures::writeHtml(job.panels.back().sequence, job.path);
   return {};
 }
 
@@ -153,13 +153,13 @@ void aimCamera(const RenderOptions& options, Scene& scene) {
   if (options.fieldOfView) scene.camera.fieldOfView = *options.fieldOfView;
 }
 
-std::vector<Panel> recordPanels(const RenderOptions& options, const Scene& scene, const std::vector<double>& times) {
+std::vector<Panel> samplePanels(const RenderOptions& options, const Scene& scene, const std::vector<double>& times) {
   std::vector<Panel> panels;
   if (options.compare) {
-    panels.push_back({"plain Bullet", recordRun(scene, times, SceneWorld::Kind::plainBullet)});
-    panels.push_back({"dry", recordRun(dryScene(scene), times)});
+    panels.push_back({"plain Bullet", sampleRun(scene, times, SceneWorld::Kind::plainBullet)});
+    panels.push_back({"dry", sampleRun(dryScene(scene), times)});
   }
-  panels.push_back({options.compare ? "wet" : "", recordRun(scene, times)});
+  panels.push_back({options.compare ? "wet" : "", sampleRun(scene, times)});
   return panels;
 }
 
@@ -176,12 +176,12 @@ auto atOut(const RenderOptions& options, const Action& action) {
 }
 
 double speedOfDrawing(const RenderJob& job, const RenderResult& result) {
-  return static_cast<double>(job.panels.front().recording.frames.size()) / std::max(1e-9, result.secondsOfDrawing);
+  return static_cast<double>(job.panels.front().sequence.frames.size()) / std::max(1e-9, result.secondsOfDrawing);
 }
 
 nlohmann::ordered_json jsonOf(const RenderOptions& options, const Scene& scene, const RenderJob& job,
                               const RenderResult& result) {
-  const std::vector<pictures::Frame>& frames = job.panels.back().recording.frames;
+  const std::vector<pictures::Frame>& frames = job.panels.back().sequence.frames;
   nlohmann::ordered_json json{{"scene", scene.name},         {"precision", nameOf(ownPrecision)},
                               {"file", options.out},         {"bytes", std::filesystem::file_size(options.out)},
                               {"frames", frames.size()},     {"first_s", frames.front().time},
@@ -196,7 +196,7 @@ nlohmann::ordered_json jsonOf(const RenderOptions& options, const Scene& scene, 
 }
 
 void printSummary(const RenderOptions& options, const RenderJob& job, const RenderResult& result) {
-  const std::size_t count = job.panels.front().recording.frames.size();
+  const std::size_t count = job.panels.front().sequence.frames.size();
   const char* const pictures = count == 1 ? "picture" : "pictures";
   if (result.renderer.empty()) {
     std::printf("%s: %zu %s\n", options.out.c_str(), count, pictures);
@@ -218,7 +218,7 @@ void renderScene(const RenderOptions& options) {
   atOut(options, [&] { product.require(size.width, size.height); });
   RenderJob job{output.path(), {}, size.width, size.height, 0, valueOf(colourings(), options.colouring)};
   if (product.isFilm) job.framesPerSecond = options.framesPerSecond.value_or(product.framesPerSecond);
-  job.panels = recordPanels(options, scene, timesOf(options, product, scene));
+  job.panels = samplePanels(options, scene, timesOf(options, product, scene));
   const RenderResult result = atOut(options, [&] { return product.write(job); });
   output.commit();
   json.write(jsonOf(options, scene, job, result));

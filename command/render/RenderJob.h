@@ -2,7 +2,7 @@
 #pragma once
 
 #include "command/pictures/Colouring.h"
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 #include <string>
 #include <vector>
@@ -12,10 +12,10 @@ namespace command {
 /// A run to be compared with others in one picture.
 struct Panel {
   std::string heading;  ///< empty: none
-  pictures::Recording recording;
+  pictures::FrameSequence sequence;
 };
 
-/// What is to be made of recorded runs.
+/// What is to be made of runs.
 struct RenderJob {
   std::string path;            ///< where to write
   std::vector<Panel> panels;   ///< side by side; all have frames at the same times

@@ -3,7 +3,7 @@
 
 #include "command/scene/SceneWorld.h"
 
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "command/render/FallingDrops.h"
+#include "command/scene/FallingDrops.h"
 #include "command/scene/BulletWorld.h"
 #include "command/scene/Motion.h"
 #include "command/scene/Scene.h"

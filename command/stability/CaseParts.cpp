@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/stability/CaseParts.h"
 
-#include "command/stability/ObviousWays.h"
+#include "command/stability/NaiveMethods.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -46,7 +46,7 @@ HardCase everywhere(std::string name, std::string group, std::string about) {
 
 double freeMass(const btSoftBody& body) {
   double mass = 0;
-  for (const double one : obvious::massesOf(body)) mass += one;
+  for (const double one : naive::massesOf(body)) mass += one;
   return mass;
 }
 
@@ -83,7 +83,7 @@ void Weather::blow(const btVector3& air) {
 
 void Weather::beforeStep() {
   if (m_scene.time() >= m_scene.limits.calmFrom && !m_air.fuzzyZero()) blow(btVector3(0, 0, 0));
-  if (m_scene.isPlainBullet()) obvious::blowSafely(m_body, m_air, m_skinFriction, m_scene.dt());
+  if (m_scene.isPlainBullet()) naive::blowSafely(m_body, m_air, m_skinFriction, m_scene.dt());
 }
 
 Script underWeather(CaseScene& scene, btSoftBody& body, wetcloth::WetCloth* cloth, Weather::Kind kind,

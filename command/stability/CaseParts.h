@@ -36,7 +36,7 @@ double windForce(double speed, double area = 1);
 /// metre [N/m]: stiff beside its weight, as real cloth is.
 double stiffnessFor(double mass, int columns = kNodes);
 
-/// Air and water about a cloth. In plain Bullet and the obvious ways nothing gets wet, and in plain Bullet an
+/// Air and water about a cloth. In plain Bullet and the naive methods nothing gets wet, and in plain Bullet an
 /// application's own safe wind blows, so that Bullet's solvers have the same to bear without us.
 class Weather {
  public:

@@ -76,8 +76,8 @@ CaseResult tryCase(const HardCase& hardCase, World world, double dt, Effort effo
       result.plainBullet = runCase(hardCase, world, Way::plainBulletWet, dt, effort);
     }
   }
-  if (comparisons == Comparisons::all && !hardCase.obviousWay.empty()) {
-    result.obviousWay = runCase(hardCase, world, Way::obvious, dt, effort);
+  if (comparisons == Comparisons::all && !hardCase.naiveMethod.empty()) {
+    result.naiveMethod = runCase(hardCase, world, Way::naive, dt, effort);
   }
   return result;
 }

@@ -15,7 +15,7 @@ enum class Effort { full, quick };
 /// @param world  one of the case's; @param dt  of each step [s], > 0
 CaseMeter runCase(const HardCase& hardCase, World world, Way way, double dt, Effort effort = Effort::full);
 
-/// A case in one world at one step: ours, plain Bullet and, where there is one, the obvious way.
+/// A case in one world at one step: ours, plain Bullet and, where there is one, the naive method.
 struct CaseResult {
   enum class Verdict {
     holds,
@@ -29,14 +29,14 @@ struct CaseResult {
   CaseMeter ours;
   /// None for cases without a world. Dry, or, where ours fails what that holds, wet.
   std::optional<CaseMeter> plainBullet;
-  std::optional<CaseMeter> obviousWay;
+  std::optional<CaseMeter> naiveMethod;
 
   Verdict verdict() const;
 };
 
 /// What is run beside ours.
 enum class Comparisons {
-  all,         ///< plain Bullet and the obvious way
+  all,         ///< plain Bullet and the naive method
   whereNeeded  ///< plain Bullet, and that only where ours does not hold
 };
 

@@ -36,7 +36,7 @@ class CaseScene {
   Way way() const { return m_way; }
   bool isOurs() const { return m_way == Way::ours; }
   bool isPlainBullet() const { return m_way == Way::plainBullet || m_way == Way::plainBulletWet; }
-  bool isObvious() const { return m_way == Way::obvious; }
+  bool isNaive() const { return m_way == Way::naive; }
   double dt() const { return m_dt; }
   double time() const { return m_steps * m_dt; }  ///< at the beginning of the step that is next [s]
   int steps() const { return m_steps; }

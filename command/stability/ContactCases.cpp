@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/stability/CaseParts.h"
 #include "command/stability/Cases.h"
-#include "command/stability/ObviousWays.h"
+#include "command/stability/NaiveMethods.h"
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
@@ -247,7 +247,7 @@ HardCase clothOnCloth() {
       cloths.push_back(scene.wet(body));
       setWeatherLimits(scene, body, 3);
     }
-    if (scene.isObvious() || !scene.isOurs()) return Script{};
+    if (scene.isNaive() || !scene.isOurs()) return Script{};
     cloths[0]->setSaturation(1);
     for (wetcloth::WetCloth* const cloth : cloths) {
       wetcloth::ContactWetting::Parameters wetting;

@@ -192,12 +192,12 @@ HardCase cubic(std::string name, std::string about, std::function<std::vector<Kn
   hardCase.group = "cubics";
   hardCase.about = std::move(about);
   hardCase.worlds = {World::none};
-  hardCase.obviousWay = "the textbook's cubic";
+  hardCase.naiveMethod = "the textbook's cubic";
   hardCase.compute = [make = std::move(make)](Way way, CaseMeter& meter) {
     std::vector<ContinuousCheck> checks{ContinuousCheck(Tier::fast), ContinuousCheck(Tier::conservative)};
     if (ContinuousCheck::hasExact()) checks.emplace_back(Tier::exact);
     for (const Known& known : make()) {
-      if (way == Way::obvious) checkTextbook(known, meter);
+      if (way == Way::naive) checkTextbook(known, meter);
       if (way != Way::ours) continue;
       for (const ContinuousCheck& answer : checks) check(answer, known, meter);
     }

@@ -35,7 +35,7 @@ struct HardCase {
   std::function<Script(CaseScene&)> build = {};
   /// Of a case without a world: computes and compares.
   std::function<void(Way, CaseMeter&)> compute = {};
-  std::string obviousWay = {};  ///< what one would write first, when it is run beside ours
+  std::string naiveMethod = {};  ///< what one would write first, when it is run beside ours
   /// Steps that it is run at [s]; empty: all of the table.
   std::vector<double> stepSizes = {};
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/stability/CaseParts.h"
 #include "command/stability/Cases.h"
-#include "command/stability/ObviousWays.h"
+#include "command/stability/NaiveMethods.h"
 
 #include <cmath>
 #include <memory>
@@ -78,7 +78,7 @@ HardCase laundry(const char* name, const char* about, double duration, std::vect
     btSoftBody& body = scene.add(hangingCloth(5), 1000);
     auto day = std::make_shared<Laundry>(scene, body);
     double mass = 0;
-    for (const double one : obvious::massesOf(body)) mass += one;
+    for (const double one : naive::massesOf(body)) mass += one;
     scene.limits.source = 6.4;
     scene.limits.drop = 2.2;
     scene.limits.force = 1.84 * mass * (scene.gravity() + 0.1 * 160) + windForce(6.4);

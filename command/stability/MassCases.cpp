@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/stability/CaseParts.h"
 #include "command/stability/Cases.h"
-#include "command/stability/ObviousWays.h"
+#include "command/stability/NaiveMethods.h"
 
 #include <cmath>
 #include <cstddef>
@@ -81,24 +81,24 @@ double dryThenWet(const CaseScene& scene) {
 using WriteMasses = void (*)(btSoftBody& body, const std::vector<double>& dry, double factor);
 
 /// Wet at first, dried to nothing in one step, and saturated again in one.
-HardCase atOnce(const char* name, const char* obviousWay, WriteMasses write) {
+HardCase atOnce(const char* name, const char* naiveMethod, WriteMasses write) {
   HardCase hardCase = everywhere(name, "masses", "from saturation to dry in one step and back, at 3.5 times the mass");
-  hardCase.obviousWay = obviousWay;
+  hardCase.naiveMethod = naiveMethod;
   hardCase.build = [=](CaseScene& scene) {
     const wetcloth::Fabric fabric = wetcloth::Fabric::highAbsorption();
     btSoftBody& body = scene.add(hangingCloth(), 1000);
     wetcloth::WetCloth* const cloth = scene.wet(body, fabric);
     if (cloth != nullptr) cloth->add<wetcloth::Wind>({btVector3(0, 0, 0)});
-    const auto dry = std::make_shared<std::vector<double>>(obvious::massesOf(body));
+    const auto dry = std::make_shared<std::vector<double>>(naive::massesOf(body));
     scene.limits.drop = 0.1;
     scene.limits.force = freeMass(body) * (1 + fabric.capacity) * scene.gravity();
     scene.limits.calmFrom = 0;
-    if (scene.isObvious()) obvious::writeMassesWithoutMomentum(body, *dry, 1 + fabric.capacity);
+    if (scene.isNaive()) naive::writeMassesWithoutMomentum(body, *dry, 1 + fabric.capacity);
     Script script;
     script.before = [=, &scene, &body] {
       const double saturation = dryThenWet(scene);
       if (cloth != nullptr) cloth->setSaturation(saturation);
-      if (scene.isObvious()) write(body, *dry, 1 + saturation * fabric.capacity);
+      if (scene.isNaive()) write(body, *dry, 1 + saturation * fabric.capacity);
     };
     return script;
   };
@@ -118,7 +118,7 @@ HardCase absorbedAtOnce() {
       cloth->add<wetcloth::Absorption>(rain);
     } else {
       // In plain Bullet the cloth has the water's mass and momentum from the beginning.
-      obvious::writeMassesWithoutMomentum(body, obvious::massesOf(body), 1 + fabric.capacity);
+      naive::writeMassesWithoutMomentum(body, naive::massesOf(body), 1 + fabric.capacity);
       const btScalar share = btScalar(fabric.capacity / (1 + fabric.capacity));
       for (int i = 0; i < body.m_nodes.size(); ++i) {
         btSoftBody::Node& node = body.m_nodes[i];
@@ -142,7 +142,7 @@ HardCase driesExactly() {
   hardCase.build = [](CaseScene& scene) {
     btSoftBody& body = scene.add(hangingCloth(), 1000);
     wetcloth::WetCloth* const cloth = scene.wet(body);
-    const auto dry = std::make_shared<std::vector<double>>(obvious::massesOf(body));
+    const auto dry = std::make_shared<std::vector<double>>(naive::massesOf(body));
     if (cloth != nullptr) {
       wetcloth::Drying::Parameters drying;
       drying.temperature = 60;
@@ -160,7 +160,7 @@ HardCase driesExactly() {
     Script script;
     script.finish = [=, &body](CaseMeter& meter) {
       if (cloth != nullptr) meter.compare("water left", cloth->ledger().held, 0);
-      const std::vector<double> now = obvious::massesOf(body);
+      const std::vector<double> now = naive::massesOf(body);
       for (std::size_t i = 0; i < now.size(); ++i) {
         // One rounding for each of two reciprocals.
         if (now[i] > 0) meter.compare("mass drift", std::fabs(now[i] - (*dry)[i]), 2 * kRounding * (*dry)[i]);
@@ -196,8 +196,8 @@ HardCase tenThousandCycles() {
       if (cloth != nullptr) cloth->setSaturation(scene.steps() < 20000 ? (scene.steps() + 1) % 2 : 0);
     };
     script.finish = [&scene, &body, &twin](CaseMeter& meter) {
-      const std::vector<double> now = obvious::massesOf(body);
-      const std::vector<double> dry = obvious::massesOf(twin);
+      const std::vector<double> now = naive::massesOf(body);
+      const std::vector<double> dry = naive::massesOf(twin);
       for (int i = 0; i < body.m_nodes.size(); ++i) {
         const std::size_t at = static_cast<std::size_t>(i);
         if (dry[at] > 0) meter.compare("mass drift", std::fabs(now[at] - dry[at]), 2 * kRounding * dry[at]);
@@ -220,23 +220,23 @@ HardCase tenThousandCycles() {
 HardCase momentum() {
   HardCase hardCase = everywhere("soaks_in_flight", "masses", "weightless, at 10 m/s through water that stands still");
   hardCase.isWeightless = true;
-  hardCase.obviousWay = "mass without momentum";
+  hardCase.naiveMethod = "mass without momentum";
   hardCase.build = [](CaseScene& scene) {
     wetcloth::Fabric fabric = wetcloth::Fabric::highAbsorption();
     fabric.timeConstant = 0.5;
     btSoftBody& body = scene.add(uprightCloth(), 1000);
     wetcloth::WetCloth* const cloth = scene.wet(body, fabric);
     if (cloth != nullptr) cloth->add<wetcloth::Absorption>();
-    const auto dry = std::make_shared<std::vector<double>>(obvious::massesOf(body));
+    const auto dry = std::make_shared<std::vector<double>>(naive::massesOf(body));
     const btVector3 velocity(6, 0, 8);
     for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_v = body.m_nodes[i].m_vn = velocity;
     const double mass = freeMass(body);
     scene.limits.source = 10;
     Script script;
     script.before = [=, &scene, &body] {
-      if (!scene.isObvious()) return;
+      if (!scene.isNaive()) return;
       const double saturation = 1 - std::exp(-scene.time() / fabric.timeConstant);
-      obvious::writeMassesWithoutMomentum(body, *dry, 1 + saturation * fabric.capacity);
+      naive::writeMassesWithoutMomentum(body, *dry, 1 + saturation * fabric.capacity);
     };
     script.observe = [&body, mass, velocity](CaseMeter& meter) {
       double energy = 0;
@@ -265,8 +265,8 @@ std::vector<HardCase> massCases() {
           uniformMass("10", 10),
           unlikeNeighbours(),
           oneWetNode(),
-          atOnce("wet_in_one_step", "setMass in each step", obvious::setMasses),
-          atOnce("dry_in_one_step", "stale link constants", obvious::writeMassesOnly),
+          atOnce("wet_in_one_step", "setMass in each step", naive::setMasses),
+          atOnce("dry_in_one_step", "stale link constants", naive::writeMassesOnly),
           absorbedAtOnce(),
           driesExactly(),
           tenThousandCycles(),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/stability/CaseParts.h"
 #include "command/stability/Cases.h"
-#include "command/stability/ObviousWays.h"
+#include "command/stability/NaiveMethods.h"
 
 #include <array>
 #include <cmath>

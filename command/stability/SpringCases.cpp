@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/stability/CaseParts.h"
 #include "command/stability/Cases.h"
-#include "command/stability/ObviousWays.h"
+#include "command/stability/NaiveMethods.h"
 
 #include <memory>
 #include <utility>
@@ -16,7 +16,7 @@ HardCase hooke(const char* name, const char* about, double stiffness) {
   hardCase.build = [=](CaseScene& scene) {
     btSoftBody& body = scene.add(hangingCloth(), stiffness);
     double mass = 0;
-    for (const double one : obvious::massesOf(body)) mass += one;
+    for (const double one : naive::massesOf(body)) mass += one;
     wetcloth::WetCloth* const cloth = scene.wet(body);
     if (cloth != nullptr && !isDeformable(scene.world())) {
       wetcloth::HookeSprings::Parameters springs;

@@ -120,23 +120,23 @@ std::string caseTable(const std::vector<CaseResult>& results, const std::vector<
   return text;
 }
 
-std::string obviousTable(const std::vector<CaseResult>& results, const std::vector<double>& steps) {
+std::string naiveTable(const std::vector<CaseResult>& results, const std::vector<double>& steps) {
   std::string text = tableHead(withStepNames({"case", "world", "the obvious way"}, steps));
   std::vector<std::string> cells;
   const HardCase* previous = nullptr;
   World previousWorld = World::none;
   for (const CaseResult& result : results) {
-    if (!result.obviousWay) continue;
+    if (!result.naiveMethod) continue;
     if (result.hardCase != previous || result.world != previousWorld) {
       if (!cells.empty()) text += row(cells);
-      cells = {"`" + result.hardCase->name + "`", nameOf(result.world), result.hardCase->obviousWay};
+      cells = {"`" + result.hardCase->name + "`", nameOf(result.world), result.hardCase->naiveMethod};
       cells.resize(3 + std::max<std::size_t>(1, steps.size()));
       previous = result.hardCase;
       previousWorld = result.world;
     }
     const auto at = std::find(steps.begin(), steps.end(), result.step);
     const auto column = at == steps.end() ? 0 : at - steps.begin();
-    cells[3 + static_cast<std::size_t>(column)] = comparisonText(result.obviousWay);
+    cells[3 + static_cast<std::size_t>(column)] = comparisonText(result.naiveMethod);
   }
   return cells.empty() ? "" : text + row(cells);
 }
@@ -150,12 +150,12 @@ std::string StabilityReport::text() const {
                 "verdict", "margin", "bound", "plain Bullet", "obvious way");
   text += line;
   for (const CaseResult& result : m_results) {
-    const std::string obvious =
-        result.obviousWay ? result.hardCase->obviousWay + ": " + comparisonText(result.obviousWay) : "";
+    const std::string naive =
+        result.naiveMethod ? result.hardCase->naiveMethod + ": " + comparisonText(result.naiveMethod) : "";
     std::snprintf(line, sizeof line, "%-32s %-19s %8s  %-12s %8s  %-14s %-28s %s\n", result.hardCase->name.c_str(),
                   nameOf(result.world).c_str(), stepName(result.step).c_str(), nameOf(result.verdict()),
                   numberText(result.ours.nearest().ratio).c_str(), result.ours.nearest().bound.c_str(),
-                  comparisonText(result.plainBullet).c_str(), obvious.c_str());
+                  comparisonText(result.plainBullet).c_str(), naive.c_str());
     text += line;
   }
   std::snprintf(line, sizeof line,
@@ -179,7 +179,7 @@ Json StabilityReport::json() const {
                      {"margin", marginJson(result.ours)},
                      {"bound", result.ours.nearest().bound},
                      {"plain_bullet", comparisonJson(result.plainBullet, "")},
-                     {"obvious_way", comparisonJson(result.obviousWay, result.hardCase->obviousWay)}});
+                     {"obvious_way", comparisonJson(result.naiveMethod, result.hardCase->naiveMethod)}});
   }
   return {{"precision", command::nameOf(command::ownPrecision)},
           {"holds", count(Verdict::holds)},
@@ -196,8 +196,8 @@ std::string StabilityReport::markdown() const {
       "\nThe margin of each, measured / allowed of the nearest bound; `Bullet:` and a bound where Bullet alone fails, "
       "too:\n\n";
   text += caseTable(m_results, steps);
-  const std::string obvious = obviousTable(m_results, steps);
-  if (!obvious.empty()) text += "\nWhat the obvious way does:\n\n" + obvious;
+  const std::string naive = naiveTable(m_results, steps);
+  if (!naive.empty()) text += "\nWhat the obvious way does:\n\n" + naive;
   return text + "\n";
 }
 

@@ -18,7 +18,7 @@ class StabilityReport {
   /// One row for each case, world and step.
   std::string text() const;
   nlohmann::ordered_json json() const;
-  /// One row for each case and world, a column for each step; then what the obvious ways and plain Bullet fail.
+  /// One row for each case and world, a column for each step; then what the naive methods and plain Bullet fail.
   std::string markdown() const;
 
   int count(CaseResult::Verdict verdict) const;

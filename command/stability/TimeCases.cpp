@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/stability/CaseParts.h"
 #include "command/stability/Cases.h"
-#include "command/stability/ObviousWays.h"
+#include "command/stability/NaiveMethods.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ struct WashingLine {
         cloth(scene.wet(body)),
         weather(scene, body, cloth, Weather::Kind::rain, btVector3(1, 0, 5)) {
     double mass = 0;
-    for (const double one : obvious::massesOf(body)) mass += one;
+    for (const double one : naive::massesOf(body)) mass += one;
     scene.limits.source = 5.1;
     scene.limits.drop = 2;
     scene.limits.force = 1.84 * mass * scene.gravity() + windForce(5.1);

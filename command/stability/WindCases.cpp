@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/stability/CaseParts.h"
 #include "command/stability/Cases.h"
-#include "command/stability/ObviousWays.h"
+#include "command/stability/NaiveMethods.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ constexpr const char* kExplicitWind = "explicit wind";
 /// The wind blows for half of the time; then the cloth may come to rest.
 Script blown(CaseScene& scene, btSoftBody& body, double speed, const Air& air, double skinFriction = 0.01) {
   double mass = 0;
-  for (const double one : obvious::massesOf(body)) mass += one;
+  for (const double one : naive::massesOf(body)) mass += one;
   scene.limits.source = speed;
   scene.limits.drop = 2;
   scene.limits.force = mass * scene.gravity() + windForce(speed);
@@ -31,7 +31,7 @@ Script blown(CaseScene& scene, btSoftBody& body, double speed, const Air& air, d
   script.before = [=, &scene, &body] {
     if (scene.time() < scene.limits.calmFrom) weather->blow(air(scene));
     weather->beforeStep();
-    if (scene.isObvious()) obvious::pushByWind(body, weather->air(), scene.dt());
+    if (scene.isNaive()) naive::pushByWind(body, weather->air(), scene.dt());
   };
   return script;
 }
@@ -40,7 +40,7 @@ HardCase windOf(double speed) {
   const std::string number = std::to_string(static_cast<int>(speed));
   HardCase hardCase = everywhere("wind_" + number, "winds", "a hanging cloth in a wind of " + number + " m/s");
   hardCase.duration = 6;
-  if (speed > 0) hardCase.obviousWay = kExplicitWind;
+  if (speed > 0) hardCase.naiveMethod = kExplicitWind;
   hardCase.build = [=](CaseScene& scene) {
     btSoftBody& body = scene.add(hangingCloth(), std::max(1000., windForce(speed)));
     const btVector3 velocity = btVector3(btScalar(0.28), 0, btScalar(0.96)) * btScalar(speed);
@@ -52,7 +52,7 @@ HardCase windOf(double speed) {
 HardCase reversing() {
   HardCase hardCase = everywhere("wind_reversing", "winds", "50 m/s, the other way round in each step");
   hardCase.duration = 6;
-  hardCase.obviousWay = kExplicitWind;
+  hardCase.naiveMethod = kExplicitWind;
   hardCase.build = [](CaseScene& scene) {
     btSoftBody& body = scene.add(hangingCloth(), windForce(50));
     return blown(scene, body, 50, [](const CaseScene& at) { return btVector3(0, 0, at.steps() % 2 == 0 ? 50 : -50); });
@@ -94,7 +94,7 @@ HardCase edgeOn() {
 HardCase crumpled() {
   HardCase hardCase = everywhere("wind_on_crumpled_cloth", "winds", "50 m/s on a cloth whose nodes were thrown about");
   hardCase.duration = 6;
-  hardCase.obviousWay = kExplicitWind;
+  hardCase.naiveMethod = kExplicitWind;
   hardCase.build = [](CaseScene& scene) {
     auto body = hangingCloth().build(scene.worldInfo());
     // Bullet would take the crumpled lengths for the rest lengths.
@@ -118,7 +118,7 @@ HardCase crumpled() {
 HardCase lightNodes() {
   HardCase hardCase = everywhere("wind_on_light_nodes", "winds", "30 m/s on a free sheet of 1 g/m^2, weightless");
   hardCase.isWeightless = true;
-  hardCase.obviousWay = kExplicitWind;
+  hardCase.naiveMethod = kExplicitWind;
   hardCase.build = [](CaseScene& scene) {
     wetcloth::ClothPatch patch = uprightCloth();
     patch.arealDensity = 1e-3;

@@ -21,7 +21,7 @@ enum class Way {
   ours,            ///< Bullet and this library
   plainBullet,     ///< Bullet alone: the same bodies and whatever moves pins and bodies, no effect of ours
   plainBulletWet,  ///< the same with the masses of saturated cotton from the beginning
-  obvious          ///< Bullet, and what one would write first
+  naive            ///< Bullet, and what one would write first
 };
 
 inline const std::vector<std::pair<std::string, World>>& stabilityWorlds() {

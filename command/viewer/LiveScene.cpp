@@ -55,7 +55,7 @@ Grip::Push pushInPlainBullet(bool isDeformable) {
 
 LiveScene::LiveScene(command::Scene scene) : m_original(std::move(scene)), m_effects(m_original), m_scene(m_original) {
   build();
-  m_recorder = std::make_unique<command::Recorder>(*m_wet);
+  m_sampler = std::make_unique<command::FrameSampler>(*m_wet);
   note();
 }
 
@@ -340,7 +340,7 @@ void LiveScene::dragTo(const btVector3& goal) {
 const pictures::Frame& LiveScene::frame(Side side) {
   const command::SceneWorld& world = side == Side::plainBullet && m_plain ? *m_plain : *m_wet;
   pictures::Frame& frame = m_frames[side == Side::plainBullet ? 1 : 0];
-  m_recorder->take(world, world.time(), frame);
+  m_sampler->take(world, world.time(), frame);
   return frame;
 }
 

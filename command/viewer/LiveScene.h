@@ -6,7 +6,7 @@
 #include "command/viewer/History.h"
 #include "command/viewer/Picking.h"
 
-#include "command/render/Recorder.h"
+#include "command/render/FrameSampler.h"
 #include "command/scene/SceneWorld.h"
 
 #include <memory>
@@ -123,8 +123,8 @@ class LiveScene {
 
   const command::Scene& scene() const { return m_scene; }
   const command::SceneWorld& world() const { return *m_wet; }
-  const pictures::Scenery& scenery() const { return m_recorder->scenery(); }
-  const std::vector<pictures::ClothShape>& cloths() const { return m_recorder->cloths(); }
+  const pictures::Scenery& scenery() const { return m_sampler->scenery(); }
+  const std::vector<pictures::ClothShape>& cloths() const { return m_sampler->cloths(); }
   /// As it is now. Plain Bullet's only while isCompared().
   const pictures::Frame& frame(Side side);
 
@@ -156,7 +156,7 @@ class LiveScene {
   command::Scene m_scene;  // the one that runs; the worlds refer to it
   std::unique_ptr<command::SceneWorld> m_wet;
   std::unique_ptr<command::SceneWorld> m_plain;
-  std::unique_ptr<command::Recorder> m_recorder;
+  std::unique_ptr<command::FrameSampler> m_sampler;
   Levers m_levers;
   std::string m_fabricInUse;
   std::optional<Grip> m_grip;

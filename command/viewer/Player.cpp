@@ -11,7 +11,7 @@
 #include "command/cli/Errors.h"
 #include "command/cli/StagedOutput.h"
 #include "command/pictures/PngFile.h"
-#include "command/pictures/Renderer.h"
+#include "command/pictures/gl/Renderer.h"
 
 #include <imgui.h>
 

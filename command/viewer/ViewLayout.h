@@ -3,7 +3,7 @@
 
 #include "command/viewer/LiveScene.h"
 
-#include "command/pictures/Renderer.h"
+#include "command/pictures/gl/Renderer.h"
 
 #include <array>
 

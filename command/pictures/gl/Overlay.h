@@ -4,7 +4,7 @@
 #include "command/pictures/gl/ShaderProgram.h"
 #include "command/pictures/gl/VertexArray.h"
 
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 #include <array>
 #include <string>

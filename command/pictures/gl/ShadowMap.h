@@ -2,7 +2,7 @@
 #pragma once
 
 #include "command/pictures/Matrix4.h"
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 #include <epoxy/gl.h>
 

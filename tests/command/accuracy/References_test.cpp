@@ -2,7 +2,7 @@
 // What the studies compare with, against physics: these share no code with the library.
 
 #include "command/accuracy/BarenblattSpread.h"
-#include "command/accuracy/HangingCloth.h"
+#include "command/accuracy/SwingingCloth.h"
 #include "command/accuracy/MassSpringReference.h"
 #include "tests/support/BulletWorld.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 using accuracy::BarenblattSpread;
 using accuracy::ClothRecord;
-using accuracy::HangingCloth;
+using accuracy::SwingingCloth;
 using accuracy::MassSpringReference;
 
 constexpr double kPi = 3.14159265358979323846;
@@ -67,9 +67,9 @@ TEST(MassSpringReference, FallsFreely) {
   EXPECT_NEAR(reference.gravityEnergy() + reference.kineticEnergy(), 3 * 9.81 * 5, 1e-10);
 }
 
-TEST(HangingCloth, ItsReferenceIsThePatchThatBulletGets) {
+TEST(SwingingCloth, ItsReferenceIsThePatchThatBulletGets) {
   for (const double angle : {0.0, 0.35}) {
-    const HangingCloth cloth{angle};
+    const SwingingCloth cloth{angle};
     const MassSpringReference reference = cloth.reference();
     btSoftBodyWorldInfo info;
     const auto body = cloth.patch().build(info);
@@ -89,18 +89,18 @@ TEST(HangingCloth, ItsReferenceIsThePatchThatBulletGets) {
   }
 }
 
-TEST(HangingCloth, SagsByAboutTheSumOfItsRowsStretches) {
+TEST(SwingingCloth, SagsByAboutTheSumOfItsRowsStretches) {
   // Each of the springs down carries what hangs below it: sum over n rows of m g k / (columns K), k = 1..n, which the
   // flexion springs (of 1/100 the stiffness) and the shear lower by a few percent.
-  const int rows = HangingCloth::side - 1;
+  const int rows = SwingingCloth::side - 1;
   const double weight = 0.150 * 9.81 / rows;  // of a row [N]
-  const double estimate = weight * rows * rows / 2 / (HangingCloth::side * HangingCloth::stiffness);
+  const double estimate = weight * rows * rows / 2 / (SwingingCloth::side * SwingingCloth::stiffness);
   const double sag = accuracy::sagOf(accuracy::recordReference({}, 1e-4, 0.5));
   EXPECT_LT(sag, estimate);
   EXPECT_GT(sag, 0.5 * estimate);
 }
 
-TEST(HangingCloth, SwingsAboutAsAHangingChain) {
+TEST(SwingingCloth, SwingsAboutAsAHangingChain) {
   // The lowest mode of a chain of length L: omega = 2.405 / 2 sqrt(g / L), first zero of the Bessel function J0. At 20
   // degrees a pendulum is slower by 0.8 %; and higher modes take part.
   const ClothRecord record = accuracy::recordReference({0.3490659}, 1e-4, 3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Zlib
-// The table of `wetcloth stability`: every case in every world at one step, and what the obvious ways come to. The
+// The table of `wetcloth stability`: every case in every world at one step, and what the naive methods come to. The
 // other steps are the command's business.
 
 #include "command/stability/StabilityTable.h"
@@ -124,40 +124,40 @@ TEST(StabilityCases, AnHourOfLaundry) {
   EXPECT_GT(meter.marginOf("ledger"), 0) << "and got wet";
 }
 
-// --- the obvious ways -----------------------------------------------------------------------------------------
+// --- the naive methods -----------------------------------------------------------------------------------------
 
-struct ObviousWay {
+struct NaiveMethod {
   const char* hardCase;
   const char* name;
   const char* bound;  ///< that it fails; empty: any
 };
 
-class StabilityOfObviousWays : public testing::TestWithParam<ObviousWay> {};
+class StabilityOfNaiveMethods : public testing::TestWithParam<NaiveMethod> {};
 
-TEST_P(StabilityOfObviousWays, FailsWhereOursHolds) {
+TEST_P(StabilityOfNaiveMethods, FailsWhereOursHolds) {
   const stability::HardCase& hardCase = hardCaseNamed(GetParam().hardCase);
   const auto world = stability::World::softRigid;
-  EXPECT_EQ(hardCase.obviousWay, GetParam().name);
+  EXPECT_EQ(hardCase.naiveMethod, GetParam().name);
   EXPECT_TRUE(stability::runCase(hardCase, world, stability::Way::ours, kStabilityStep).holds());
-  const stability::CaseMeter obvious = stability::runCase(hardCase, world, stability::Way::obvious, kStabilityStep);
-  EXPECT_FALSE(obvious.holds());
+  const stability::CaseMeter naive = stability::runCase(hardCase, world, stability::Way::naive, kStabilityStep);
+  EXPECT_FALSE(naive.holds());
   if (GetParam().bound[0] != '\0') {
-    EXPECT_GT(obvious.marginOf(GetParam().bound), 1);
+    EXPECT_GT(naive.marginOf(GetParam().bound), 1);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, StabilityOfObviousWays,
-                         testing::Values(ObviousWay{"wet_in_one_step", "setMass in each step", "final stretch"},
+INSTANTIATE_TEST_SUITE_P(, StabilityOfNaiveMethods,
+                         testing::Values(NaiveMethod{"wet_in_one_step", "setMass in each step", "final stretch"},
                                          // No number in float32, too much energy in float64.
-                                         ObviousWay{"dry_in_one_step", "stale link constants", ""},
-                                         ObviousWay{"soaks_in_flight", "mass without momentum", "momentum"},
-                                         ObviousWay{"wind_50", "explicit wind", "speed"}),
+                                         NaiveMethod{"dry_in_one_step", "stale link constants", ""},
+                                         NaiveMethod{"soaks_in_flight", "mass without momentum", "momentum"},
+                                         NaiveMethod{"wind_50", "explicit wind", "speed"}),
                          [](const auto& test) { return std::string(test.param.hardCase); });
 
 TEST(StabilityCases, TheTextbooksCubicMissesContacts) {
   const stability::HardCase& hardCase = hardCaseNamed("cubic_coplanar");
   const stability::CaseMeter textbook =
-      stability::runCase(hardCase, stability::World::none, stability::Way::obvious, 0);
+      stability::runCase(hardCase, stability::World::none, stability::Way::naive, 0);
   EXPECT_EQ(textbook.marginOf("missed contacts"), HUGE_VAL);
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 /// What one would write first to make a plain btSoftBody wet, and what this library does not do.
-namespace stability::obvious {
+namespace stability::naive {
 
 /// Dry masses of all nodes [kg], 0 for pinned ones.
 std::vector<double> massesOf(const btSoftBody& body);
@@ -25,9 +25,9 @@ void writeMassesWithoutMomentum(btSoftBody& body, const std::vector<double>& dry
 /// @param air  velocity [m/s]; @param dt  [s]
 void pushByWind(btSoftBody& body, const btVector3& air, double dt);
 
-/// No obvious way, but the wind that plain Bullet is given to bear in place of ours: the same law, each node's drag
+/// No naive method, but the wind that plain Bullet is given to bear in place of ours: the same law, each node's drag
 /// taken implicitly, so that the air never pushes a node past its own velocity.
 /// @param skinFriction  C_f along the surface [-]
 void blowSafely(btSoftBody& body, const btVector3& air, double skinFriction, double dt);
 
-}  // namespace stability::obvious
+}  // namespace stability::naive

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Zlib
-#include "command/run/ProcessorTime.h"
+#include "command/timing/ProcessorTime.h"
 
 #include <chrono>
 #include <ctime>

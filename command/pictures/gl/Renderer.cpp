@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Zlib
-#include "command/pictures/Renderer.h"
+#include "command/pictures/gl/Renderer.h"
 
 #include "Embedded.h"
 #include "command/pictures/ColourMap.h"
 #include "command/pictures/ColourScale.h"
 #include "command/pictures/VectorMath.h"
 #include "command/pictures/gl/ColourBar.h"
-#include "command/pictures/gl/HangingCloth.h"
+#include "command/pictures/gl/ClothOnRods.h"
 #include "command/pictures/gl/Overlay.h"
 #include "command/pictures/gl/PictureBuffer.h"
 #include "command/pictures/gl/PictureUniforms.h"
@@ -101,7 +101,7 @@ class Renderer::Parts {
 
   const Scenery m_scenery;
   const Vector3 m_towardsLamp;
-  std::vector<std::unique_ptr<HangingCloth>> m_hangings;
+  std::vector<std::unique_ptr<ClothOnRods>> m_hangings;
   std::vector<std::unique_ptr<SolidMesh>> m_solids;
   SolidMesh m_drop;
   VertexArray m_square;
@@ -141,7 +141,7 @@ Renderer::Parts::Parts(const Scenery& scenery, const std::vector<ClothShape>& cl
                 embedded::ground_frag_glsl}),
       m_water({embedded::common_glsl, embedded::ground_vert_glsl},
               {embedded::common_glsl, embedded::light_glsl, embedded::water_frag_glsl}) {
-  for (const ClothShape& cloth : cloths) m_hangings.push_back(std::make_unique<HangingCloth>(cloth));
+  for (const ClothShape& cloth : cloths) m_hangings.push_back(std::make_unique<ClothOnRods>(cloth));
   for (const Solid& solid : scenery.solids) m_solids.push_back(std::make_unique<SolidMesh>(solid));
   makePictureBlock();
   makeColourMap();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Zlib
-#include "command/render/Recorder.h"
+#include "command/render/FrameSampler.h"
 
 #include "command/run/ScenePainter.h"
 
@@ -146,7 +146,7 @@ void takeStretch(const btSoftBody& body, const ClothShape& shape, const std::vec
 
 }  // namespace
 
-Recorder::Recorder(const SceneWorld& world) : m_scenery(sceneryOf(world.scene())) {
+FrameSampler::FrameSampler(const SceneWorld& world) : m_scenery(sceneryOf(world.scene())) {
   for (std::size_t i = 0; i < world.bodies().size(); ++i) {
     const btSoftBody& body = *world.bodies()[i];
     m_cloths.push_back(shapeOf(world.scene().cloths[i], body));
@@ -154,9 +154,12 @@ Recorder::Recorder(const SceneWorld& world) : m_scenery(sceneryOf(world.scene())
   }
 }
 
-void Recorder::take(const SceneWorld& world, double time, pictures::Frame& frame) const {
+void FrameSampler::take(const SceneWorld& world, double time, pictures::Frame& frame) const {
   frame.time = time;
-  frame.drops = world.drops().at(time);
+  frame.drops.clear();
+  for (const FallingDrop& drop : world.drops().at(time)) {
+    frame.drops.push_back({plain(drop.position), static_cast<float>(drop.radius)});
+  }
   frame.cloths.resize(m_cloths.size());
   for (std::size_t i = 0; i < m_cloths.size(); ++i) {
     ClothState& state = frame.cloths[i];

@@ -3,11 +3,15 @@
 
 #include "command/scene/Scene.h"
 
-#include "command/pictures/Recording.h"
-
 #include <vector>
 
 namespace command {
+
+/// A sphere of water.
+struct FallingDrop {
+  btVector3 position;
+  double radius;  ///< [m]
+};
 
 /// Drops that have fallen from a scene's cloths, on their way to the ground or to the water: in a vacuum, for the
 /// second or less that it takes.
@@ -22,14 +26,14 @@ class FallingDrops {
   /// Forgets those that have landed by `time` [s], or that fell three seconds ago.
   void forgetLanded(double time);
   /// Spheres of the drops' water, where they are at `time` [s].
-  std::vector<pictures::Drop> at(double time) const;
+  std::vector<FallingDrop> at(double time) const;
 
  private:
   struct Fall {
     double start;  // [s]
     btVector3 position;
     btVector3 velocity;
-    float radius;  // [m]
+    double radius;  // [m]
   };
 
   btVector3 positionOf(const Fall& fall, double time) const;

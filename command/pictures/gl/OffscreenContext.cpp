@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Zlib
-#include "command/pictures/OffscreenContext.h"
+#include "command/pictures/gl/OffscreenContext.h"
 
 #include "command/pictures/Unavailable.h"
 

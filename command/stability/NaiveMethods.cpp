@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Zlib
-#include "command/stability/ObviousWays.h"
+#include "command/stability/NaiveMethods.h"
 
 #include <cmath>
 #include <cstddef>
 
-namespace stability::obvious {
+namespace stability::naive {
 namespace {
 
 constexpr double kHalfDensity = 0.5 * 1.225;                // rho / 2 of Wind's defaults [kg/m^3]
@@ -92,4 +92,4 @@ void blowSafely(btSoftBody& body, const btVector3& air, double skinFriction, dou
   }
 }
 
-}  // namespace stability::obvious
+}  // namespace stability::naive

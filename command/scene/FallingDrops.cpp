@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Zlib
-#include "command/render/FallingDrops.h"
+#include "command/scene/FallingDrops.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@ namespace {
 
 constexpr double longestFall = 3;  // [s], 44 m: nothing that a picture shows is so far down
 
-float radiusOf(double mass, double density) {
-  return static_cast<float>(std::cbrt(3 * mass / (4 * 3.14159265358979 * density)));
+double radiusOf(double mass, double density) {
+  return std::cbrt(3 * mass / (4 * 3.14159265358979 * density));
 }
 
 }  // namespace
@@ -34,14 +34,10 @@ void FallingDrops::forgetLanded(double time) {
   m_falls.erase(std::remove_if(m_falls.begin(), m_falls.end(), landed), m_falls.end());
 }
 
-std::vector<pictures::Drop> FallingDrops::at(double time) const {
-  std::vector<pictures::Drop> drops;
+std::vector<FallingDrop> FallingDrops::at(double time) const {
+  std::vector<FallingDrop> drops;
   for (const Fall& fall : m_falls) {
-    if (hasLanded(fall, time)) continue;
-    const btVector3 position = positionOf(fall, time);
-    drops.push_back(
-        {{static_cast<float>(position.x()), static_cast<float>(position.y()), static_cast<float>(position.z())},
-         fall.radius});
+    if (!hasLanded(fall, time)) drops.push_back({positionOf(fall, time), fall.radius});
   }
   return drops;
 }

@@ -3,17 +3,17 @@
 
 #include "command/scene/SceneWorld.h"
 
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 #include <vector>
 
 namespace command {
 
-/// Tells what pictures need to know of a world that runs, in the plain numbers of pictures::Recording.
-class Recorder {
+/// Tells what pictures need to know of a world that runs, in the plain numbers of pictures::FrameSequence.
+class FrameSampler {
  public:
   /// @param world before its first step: its links are at rest
-  explicit Recorder(const SceneWorld& world);
+  explicit FrameSampler(const SceneWorld& world);
 
   const pictures::Scenery& scenery() const { return m_scenery; }
   const std::vector<pictures::ClothShape>& cloths() const { return m_cloths; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
-#include "command/accuracy/HangingCloth.h"
+#include "command/accuracy/SwingingCloth.h"
 
-#include "command/run/ProcessorTime.h"
+#include "command/timing/ProcessorTime.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace accuracy {
 namespace {
 
-constexpr int clothSide = HangingCloth::side;
+constexpr int clothSide = SwingingCloth::side;
 constexpr double arealDensity = 0.150;
 
 /// A row of the record, of points that are read by functions: position and velocity of node i along an axis, its mass.
@@ -34,21 +34,21 @@ void note(ClothRecord& record, double time, Position position, Velocity velocity
   record.across.push_back(across / mass);
   record.heights.push_back(height / mass);
   record.lowest.push_back(lowest);
-  record.energies.push_back(kinetic / mass + HangingCloth::gravity * height / mass);
+  record.energies.push_back(kinetic / mass + SwingingCloth::gravity * height / mass);
   record.isFinite = record.isFinite && std::isfinite(kinetic) && std::fabs(height / mass) < 100;
 }
 
-Specimen::Settings settingsOf(const HangingCloth& cloth, const ClothSolver& solver) {
+Specimen::Settings settingsOf(const SwingingCloth& cloth, const ClothSolver& solver) {
   Specimen::Settings settings;
   settings.patch = cloth.patch();
-  settings.world.gravity = btVector3(0, btScalar(-HangingCloth::gravity), 0);
+  settings.world.gravity = btVector3(0, btScalar(-SwingingCloth::gravity), 0);
   settings.world.iterations = solver.iterations;
   if (solver.kind == ClothSolver::Kind::deformableExplicit || solver.kind == ClothSolver::Kind::deformableImplicit) {
     settings.world.kind = command::WorldKind::deformable;
     settings.world.implicit = solver.kind == ClothSolver::Kind::deformableImplicit;
     command::DeformableSprings springs;
-    springs.stiffness = HangingCloth::stiffness;
-    springs.bendingStiffness = HangingCloth::bendingStiffness;
+    springs.stiffness = SwingingCloth::stiffness;
+    springs.bendingStiffness = SwingingCloth::bendingStiffness;
     springs.damping = 0;
     settings.springs = springs;
   }
@@ -63,7 +63,7 @@ std::vector<double> massesOf(btSoftBody& body, const wetcloth::WetCloth& cloth) 
 
 }  // namespace
 
-wetcloth::ClothPatch HangingCloth::patch() const {
+wetcloth::ClothPatch SwingingCloth::patch() const {
   wetcloth::ClothPatch patch;
   patch.columns = patch.rows = clothSide;
   patch.edgeU = btVector3(0, 0, btScalar(length));
@@ -76,7 +76,7 @@ wetcloth::ClothPatch HangingCloth::patch() const {
 }
 
 /// Written from the paper's description of the springs and not from the patch's code.
-MassSpringReference HangingCloth::reference() const {
+MassSpringReference SwingingCloth::reference() const {
   std::vector<MassSpringReference::Point> points;
   std::vector<MassSpringReference::Spring> springs;
   const double width = length / (clothSide - 1);
@@ -116,12 +116,12 @@ MassSpringReference HangingCloth::reference() const {
   return MassSpringReference(std::move(points), std::move(springs), gravity);
 }
 
-ClothRecord record(const HangingCloth& cloth, const ClothSolver& solver, double duration) {
+ClothRecord record(const SwingingCloth& cloth, const ClothSolver& solver, double duration) {
   Specimen specimen(settingsOf(cloth, solver));
   if (solver.kind == ClothSolver::Kind::hookeSprings) {
     wetcloth::HookeSprings::Parameters springs;
-    springs.stiffness = HangingCloth::stiffness;
-    springs.bendingStiffness = HangingCloth::bendingStiffness;
+    springs.stiffness = SwingingCloth::stiffness;
+    springs.bendingStiffness = SwingingCloth::bendingStiffness;
     springs.iterations = solver.iterations;
     specimen.cloth().add<wetcloth::HookeSprings>(springs);
   }
@@ -145,7 +145,7 @@ ClothRecord record(const HangingCloth& cloth, const ClothSolver& solver, double 
   return record;
 }
 
-ClothRecord recordReference(const HangingCloth& cloth, double dt, double duration) {
+ClothRecord recordReference(const SwingingCloth& cloth, double dt, double duration) {
   MassSpringReference reference = cloth.reference();
   const auto noteNow = [&](ClothRecord& record, double time) {
     const auto point = [&](int i) -> const MassSpringReference::Point& {
@@ -173,7 +173,7 @@ double sagOf(const ClothRecord& record) {
   int count = 0;
   for (std::size_t i = 0; i < record.times.size(); ++i) {
     if (record.times[i] < record.times.back() / 2) continue;
-    sum += -record.lowest[i] - HangingCloth::length;
+    sum += -record.lowest[i] - SwingingCloth::length;
     ++count;
   }
   return sum / count;
@@ -193,7 +193,7 @@ double periodOf(const ClothRecord& record) {
 
 double energyDriftOf(const ClothRecord& record) {
   if (!record.isFinite) return std::numeric_limits<double>::infinity();
-  const double lowest = -HangingCloth::gravity * HangingCloth::length / 2;
+  const double lowest = -SwingingCloth::gravity * SwingingCloth::length / 2;
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < record.times.size(); ++i) {

@@ -14,7 +14,7 @@ namespace accuracy {
 
 /// A cloth of 1 m x 1 m that hangs from its pinned upper edge, along the z axis, out of the vertical by `angle`: to be
 /// let go.
-struct HangingCloth {
+struct SwingingCloth {
   static constexpr int side = 25;            ///< nodes
   static constexpr double length = 1;        ///< [m]
   static constexpr double stiffness = 1000;  ///< of its springs [N/m]
@@ -48,9 +48,9 @@ struct ClothRecord {
   bool isFinite = true;
 };
 
-ClothRecord record(const HangingCloth& cloth, const ClothSolver& solver, double duration);
+ClothRecord record(const SwingingCloth& cloth, const ClothSolver& solver, double duration);
 /// @param dt of the reference [s]
-ClothRecord recordReference(const HangingCloth& cloth, double dt, double duration);
+ClothRecord recordReference(const SwingingCloth& cloth, double dt, double duration);
 
 /// Mean height of the lower edge from half of the time on, below where it hangs unstretched [m].
 double sagOf(const ClothRecord& record);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Zlib
-#include "command/pictures/gl/HangingCloth.h"
+#include "command/pictures/gl/ClothOnRods.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -21,9 +21,9 @@ float sideOf(const ClothShape& shape) {
 
 }  // namespace
 
-HangingCloth::HangingCloth(const ClothShape& shape) : m_shape(shape), m_mesh(shape), m_side(sideOf(shape)) {}
+ClothOnRods::ClothOnRods(const ClothShape& shape) : m_shape(shape), m_mesh(shape), m_side(sideOf(shape)) {}
 
-void HangingCloth::update(const ClothState& state, const ColourScale& scale, const std::vector<Ground>& grounds,
+void ClothOnRods::update(const ClothState& state, const ColourScale& scale, const std::vector<Ground>& grounds,
                           float leastRadius) {
   m_mesh.update(state, scale.placesOf(state));
   if (m_findRods == nullptr) m_findRods = std::make_unique<Rods>(m_shape, state);
@@ -34,7 +34,7 @@ void HangingCloth::update(const ClothState& state, const ColourScale& scale, con
   }
 }
 
-void HangingCloth::drawBars() const {
+void ClothOnRods::drawBars() const {
   for (const auto& bar : m_bars) bar->draw();
 }
 

@@ -80,7 +80,7 @@ struct Series {
 };
 
 /// A whole run.
-struct Recording {
+struct FrameSequence {
   Scenery scenery;
   std::vector<ClothShape> cloths;
   std::vector<Frame> frames;  ///< each has as many cloths

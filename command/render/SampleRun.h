@@ -3,7 +3,7 @@
 
 #include "command/scene/SceneWorld.h"
 
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 
 #include <vector>
 
@@ -16,11 +16,11 @@ namespace command {
 /// Throws InputError when the library refuses the scene, or when so many frames would not fit into memory (2 GB);
 /// RunError when the run becomes non-finite.
 /// @param times  of the frames [s], ascending, from 0 to the scene's duration
-pictures::Recording recordRun(const Scene& scene, const std::vector<double>& times,
+pictures::FrameSequence sampleRun(const Scene& scene, const std::vector<double>& times,
                               SceneWorld::Kind kind = SceneWorld::Kind::wet);
 
 /// Frames that are 1 / framesPerSecond apart, the first at the start.
 /// @param framesPerSecond  of simulated time, > 0
-pictures::Recording recordRun(const Scene& scene, double framesPerSecond);
+pictures::FrameSequence sampleRun(const Scene& scene, double framesPerSecond);
 
 }  // namespace command

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Zlib
-#include "command/render/RecordRun.h"
+#include "command/render/SampleRun.h"
 
 #include "command/cli/Errors.h"
 #include "command/cli/Progress.h"
-#include "command/render/Recorder.h"
+#include "command/render/FrameSampler.h"
 #include "command/run/FiniteState.h"
 #include "command/run/RunSeries.h"
 #include "command/scene/SceneWorld.h"
@@ -63,20 +63,20 @@ Sample mix(const Sample& a, const Sample& b, double share) {
 }
 
 /// Takes frames from a run at times of their own.
-class Sampler {
+class FramesAtTimes {
  public:
   /// @param steps  of the run: frames later than the last step are taken after it
-  Sampler(const std::vector<double>& times, double secondsPerStep, int steps)
+  FramesAtTimes(const std::vector<double>& times, double secondsPerStep, int steps)
       : m_times(times), m_secondsPerStep(secondsPerStep), m_steps(steps) {
-    m_recording.series = runSeries();
+    m_sequence.series = runSeries();
   }
 
-  pictures::Recording& recording() { return m_recording; }
+  pictures::FrameSequence& sequence() { return m_sequence; }
 
   /// After step 0, 1, 2, ...
-  void offer(const SceneWorld& world, const Recorder& recorder, int step) {
+  void offer(const SceneWorld& world, const FrameSampler& sampler, int step) {
     std::swap(m_before, m_now);
-    recorder.take(world, step * m_secondsPerStep, m_now.frame);
+    sampler.take(world, step * m_secondsPerStep, m_now.frame);
     m_now.numbers = measureRun(world, m_now.frame);
     for (; taken() < m_times.size() && stepsUntil(m_times[taken()]) <= step + roundOff;) {
       const double late = step - stepsUntil(m_times[taken()]);  // [steps]
@@ -85,14 +85,14 @@ class Sampler {
   }
 
  private:
-  std::size_t taken() const { return m_recording.frames.size(); }
+  std::size_t taken() const { return m_sequence.frames.size(); }
   double stepsUntil(double time) const { return std::min(time / m_secondsPerStep, static_cast<double>(m_steps)); }
 
   void keep(const Sample& sample) {
     const double time = m_times[taken()];
-    m_recording.frames.push_back(sample.frame);
-    m_recording.frames.back().time = time;
-    for (std::size_t i = 0; i < sample.numbers.size(); ++i) m_recording.series[i].values.push_back(sample.numbers[i]);
+    m_sequence.frames.push_back(sample.frame);
+    m_sequence.frames.back().time = time;
+    for (std::size_t i = 0; i < sample.numbers.size(); ++i) m_sequence.series[i].values.push_back(sample.numbers[i]);
   }
 
   const std::vector<double>& m_times;
@@ -100,7 +100,7 @@ class Sampler {
   int m_steps;
   Sample m_before;
   Sample m_now;
-  pictures::Recording m_recording;
+  pictures::FrameSequence m_sequence;
 };
 
 int stepsOf(const Scene& scene) { return std::max(1, static_cast<int>(std::lround(scene.duration / scene.step))); }
@@ -137,35 +137,35 @@ std::vector<pictures::Series> telling(const std::vector<pictures::Series>& all) 
 
 }  // namespace
 
-pictures::Recording recordRun(const Scene& scene, const std::vector<double>& times, SceneWorld::Kind kind) {
+pictures::FrameSequence sampleRun(const Scene& scene, const std::vector<double>& times, SceneWorld::Kind kind) {
   requireMemory(scene, static_cast<double>(times.size()));
   const int steps = stepsOf(scene);
   SceneWorld world(scene, kind);
-  const Recorder recorder(world);
-  Sampler sampler(times, scene.step, steps);
+  const FrameSampler sampler(world);
+  FramesAtTimes frames(times, scene.step, steps);
   Progress progress("running " + scene.name);
-  sampler.offer(world, recorder, 0);
+  frames.offer(world, sampler, 0);
   const int lastStep = std::min(steps, static_cast<int>(std::ceil(times.back() / scene.step - roundOff)));
   for (int step = 1; step <= lastStep; ++step) {
     world.step();
     requireFinite(world, step);
-    sampler.offer(world, recorder, step);
+    frames.offer(world, sampler, step);
     progress.update(static_cast<double>(step) / lastStep);
   }
-  pictures::Recording& recording = sampler.recording();
-  recording.scenery = recorder.scenery();
-  recording.cloths = recorder.cloths();
-  recording.series = telling(recording.series);
-  return std::move(recording);
+  pictures::FrameSequence& sequence = frames.sequence();
+  sequence.scenery = sampler.scenery();
+  sequence.cloths = sampler.cloths();
+  sequence.series = telling(sequence.series);
+  return std::move(sequence);
 }
 
-pictures::Recording recordRun(const Scene& scene, double framesPerSecond) {
+pictures::FrameSequence sampleRun(const Scene& scene, double framesPerSecond) {
   const double end = stepsOf(scene) * scene.step;
   requireMemory(scene, end * framesPerSecond);
   const int count = static_cast<int>((end + roundOff * scene.step) * framesPerSecond) + 1;
   std::vector<double> times;
   for (int i = 0; i < count; ++i) times.push_back(i / framesPerSecond);
-  return recordRun(scene, times);
+  return sampleRun(scene, times);
 }
 
 }  // namespace command

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Drops between a cloth and the ground, as pictures show them.
 
-#include "command/render/FallingDrops.h"
+#include "command/scene/FallingDrops.h"
 
 #include "tests/support/ClothScene.h"
 
@@ -59,9 +59,9 @@ TEST(FallingDrops, FallAsInAVacuumFromWhereTheyLeft) {
   dripper.dripOnce();
   ASSERT_GT(dripper.count(), 0);
   for (const double time : {0.0, 0.1, 0.5, 2.9}) {
-    const std::vector<pictures::Drop> drops = dripper.drops.at(time);
+    const std::vector<command::FallingDrop> drops = dripper.drops.at(time);
     ASSERT_EQ(drops.size(), std::size_t(dripper.count()));
-    for (const pictures::Drop& drop : drops) {
+    for (const command::FallingDrop& drop : drops) {
       EXPECT_NEAR(drop.position[1], 1 + time - 9.81 * time * time / 2, 1e-4);
       EXPECT_LE(std::fabs(drop.position[0] - 2 * time), 0.1 + 1e-4);
     }
@@ -74,8 +74,8 @@ TEST(FallingDrops, AreSpheresOfTheirWater) {
   Dripper dripper(scene);
   dripper.dripOnce();
   double mass = 0;
-  for (const pictures::Drop& drop : dripper.drops.at(0)) {
-    const double radius = double(drop.radius);
+  for (const command::FallingDrop& drop : dripper.drops.at(0)) {
+    const double radius = drop.radius;
     const double one = 1000 * 4.0 / 3 * 3.14159265 * radius * radius * radius;
     EXPECT_GE(one, kDropMass * (1 - 1e-5));
     mass += one;

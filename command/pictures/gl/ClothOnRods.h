@@ -5,7 +5,7 @@
 #include "command/pictures/gl/SolidMesh.h"
 
 #include "command/pictures/ColourScale.h"
-#include "command/pictures/Recording.h"
+#include "command/pictures/FrameSequence.h"
 #include "command/pictures/Rods.h"
 
 #include <memory>
@@ -14,9 +14,9 @@
 namespace pictures {
 
 /// A cloth with what it hangs from.
-class HangingCloth {
+class ClothOnRods {
  public:
-  explicit HangingCloth(const ClothShape& shape);
+  explicit ClothOnRods(const ClothShape& shape);
 
   /// @param leastRadius  of a rod, which is to be seen from far away, too [m]
   void update(const ClothState& state, const ColourScale& scale, const std::vector<Ground>& grounds, float leastRadius);
