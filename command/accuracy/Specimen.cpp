@@ -3,10 +3,9 @@
 
 namespace accuracy {
 
-Specimen::Specimen(const Settings& settings)
-    : m_world(settings.world), m_wetWorld(std::make_unique<wetcloth::WetClothWorld>(m_world.world())) {
+Specimen::Specimen(const Settings& settings) : m_world(settings.world) {
   m_body = &m_world.add(settings.patch.build(m_world.worldInfo()), settings.springs ? &*settings.springs : nullptr);
-  m_cloth = &m_wetWorld->add(*m_body, settings.fabric);
+  m_cloth = &m_world.wet().add(*m_body, settings.fabric);
 }
 
 wetcloth::ClothPatch levelSquare(double side, int nodes, double arealDensity) {

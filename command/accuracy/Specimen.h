@@ -5,7 +5,6 @@
 
 #include <bullet_wetcloth/bullet_wetcloth.h>
 
-#include <memory>
 #include <optional>
 
 namespace accuracy {
@@ -29,11 +28,10 @@ class Specimen {
   /// One of Bullet's steps, ours within.
   void substep(double dt) { m_world.substep(btScalar(dt)); }
   /// Our part of a step alone: Bullet neither moves nor collides anything.
-  void substepOfOurs(double dt) { m_wetWorld->preTick(btScalar(dt)); }
+  void substepOfOurs(double dt) { m_world.wet().preTick(btScalar(dt)); }
 
  private:
   command::BulletWorld m_world;
-  std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;  // after the world: it detaches before the world goes
   btSoftBody* m_body;
   wetcloth::WetCloth* m_cloth;
 };

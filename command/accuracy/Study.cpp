@@ -4,6 +4,7 @@
 #include "command/accuracy/Advice.h"
 #include "command/accuracy/ConvergenceOrder.h"
 #include "command/accuracy/ParetoFront.h"
+#include "command/timing/Quantile.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -20,12 +21,6 @@ struct Runs {
   std::vector<double> errors;
   std::vector<double> seconds;
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// In turns, so that whatever else the machine does slows all settings alike.
 std::vector<Runs> runInTurns(const Plan& plan, const Effort& effort, const TellProgress& tell) {
@@ -102,7 +97,7 @@ std::vector<Study> carryOut(const Plan& plan, const Effort& effort, const TellPr
     study.timed = plan.timed;
     study.work = plan.work;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      study.points.push_back(pointOf(plan.settings[i], runs[i].errors.at(measure), median(runs[i].seconds)));
+      study.points.push_back(pointOf(plan.settings[i], runs[i].errors.at(measure), command::median(runs[i].seconds)));
     }
     markFront(study.points);
     study.orders = ordersOf(study.points, study.measure.referenceError);

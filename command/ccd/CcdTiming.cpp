@@ -2,10 +2,10 @@
 #include "command/ccd/CcdTiming.h"
 
 #include "command/cli/Progress.h"
+#include "command/timing/Quantile.h"
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -15,12 +15,6 @@ namespace {
 
 using wetcloth::collision::Contact;
 using Clock = std::chrono::steady_clock;
-
-double quantile(std::vector<double> values, double fraction) {
-  const auto rank = std::lround(fraction * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
-}
 
 template <class Task>
 double nanosecondsOf(const Task& task) {
@@ -33,7 +27,7 @@ double nanosecondsOf(const Task& task) {
 double clockCost() {
   std::vector<double> costs(1001);
   for (double& cost : costs) cost = nanosecondsOf([] {});
-  return quantile(std::move(costs), 0.5);
+  return median(std::move(costs));
 }
 
 /// Without a clock among the queries.
@@ -41,7 +35,7 @@ double meanOf(const CcdMethod& method, int passes) {
   std::vector<Contact> contacts(method.count());
   std::vector<double> times(static_cast<std::size_t>(passes));
   for (double& time : times) time = nanosecondsOf([&] { method.answer(0, method.count(), contacts.data()); });
-  return quantile(std::move(times), 0.5) / static_cast<double>(method.count());
+  return median(std::move(times)) / static_cast<double>(method.count());
 }
 
 /// Of each query, or each batch: all are asked in turn, as a program asks them. One that is repeated at once is found
@@ -63,7 +57,7 @@ std::vector<double> timeOfEach(const CcdMethod& method, int passes) {
     progress.update((pass + 1.) / passes);
   }
   std::vector<double> medians;
-  for (std::vector<double>& ofOne : times) medians.push_back(quantile(std::move(ofOne), 0.5));
+  for (std::vector<double>& ofOne : times) medians.push_back(median(std::move(ofOne)));
   return medians;
 }
 
@@ -73,7 +67,7 @@ CcdTimes timeOf(const CcdMethod& method, int passes) {
   CcdTimes times;
   times.mean = meanOf(method, passes);
   std::vector<double> each = timeOfEach(method, passes);
-  times.median = quantile(each, 0.5);
+  times.median = median(each);
   times.p99 = quantile(each, 0.99);
   times.worst = quantile(std::move(each), 1);
   return times;

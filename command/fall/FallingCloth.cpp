@@ -64,8 +64,7 @@ FallingCloth::FallingCloth(const FallMode& mode, const FallMode::Case& fallCase,
   const DeformableSprings springs = springsFor(patch, fallCase.massRatio);
   m_body = &m_world.add(patch.build(m_world.worldInfo()), &springs);
   if (!fallCase.inAir) return;
-  m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_world.world());
-  wetcloth::WetCloth& cloth = m_wetWorld->add(*m_body, mode.fabric);
+  wetcloth::WetCloth& cloth = m_world.wet().add(*m_body, mode.fabric);
   cloth.add<wetcloth::Wind>(mode.air);
   wet(cloth, fallCase.massRatio);
 }

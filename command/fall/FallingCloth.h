@@ -4,8 +4,6 @@
 #include "command/fall/Fall.h"
 #include "command/scene/BulletWorld.h"
 
-#include <memory>
-
 namespace command {
 
 /// A level cloth of 32 x 32 nodes that falls from rest.
@@ -23,7 +21,6 @@ class FallingCloth {
  private:
   BulletWorld m_world;
   btSoftBody* m_body;
-  std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;  // after the world: it detaches before the world goes
   long long m_substeps = 0;
   double m_fallen = 0;
   double m_lifted = 0;  // [m], see liftByOneMetre()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/fall/FallingCloth.h"
 #include "command/plot/Plots.h"
+#include "command/timing/Quantile.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -17,12 +18,6 @@ double secondsOfFrame(FallingCloth& cloth) {
   const std::clock_t start = std::clock();
   for (int i = 0; i < fallSubstepsPerFrame; ++i) cloth.substep();
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// A cloth of one of the paper's wetting values, and what its frames took.

@@ -24,8 +24,7 @@ PlotSeries absorb(wetcloth::Fabric fabric, const wetcloth::Absorption::Parameter
   patch.edgeV = btVector3(0, 0, side);
   patch.arealDensity = fabric.arealDensity;
   btSoftBody& body = world.add(patch.build(world.worldInfo()));
-  wetcloth::WetClothWorld wetWorld(world.world());
-  wetcloth::WetCloth& cloth = wetWorld.add(body, fabric);
+  wetcloth::WetCloth& cloth = world.wet().add(body, fabric);
   cloth.add<wetcloth::Absorption>(absorption);
 
   const int middle = patch.node(2, 2);

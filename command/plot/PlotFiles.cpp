@@ -5,7 +5,6 @@
 #include "command/plot/Gnuplot.h"
 
 #include <fstream>
-#include <random>
 #include <system_error>
 
 namespace command {
@@ -13,49 +12,58 @@ namespace {
 
 namespace fs = std::filesystem;
 
-RunError notWritten(const fs::path& path) {
-  return RunError("wetcloth: --out = \"" + path.string() + "\": could not be written");
+std::string optionFor(const fs::path& path) { return "wetcloth: --out = \"" + path.string() + "\""; }
+
+RunError notWritten(const fs::path& path) { return RunError(optionFor(path) + ": could not be written"); }
+
+void writeText(const StagedOutput& output, const fs::path& path, const std::string& text) {
+  std::ofstream file(output.path(), std::ios::binary | std::ios::trunc);
+  file << text << std::flush;
+  if (!file) throw notWritten(path);
 }
 
 }  // namespace
 
-PlotFiles::PlotFiles(const std::string& directory)
-    : m_directory(directory), m_aside(m_directory / (".wetcloth-plot-" + std::to_string(std::random_device()()))) {
+PlotFiles::PlotFiles(const std::string& directory) : m_directory(directory) {
   std::error_code failed;
   fs::create_directories(m_directory, failed);
-  if (fs::create_directory(m_aside, failed)) return;
-  throw InputError("wetcloth: --out = \"" + directory + "\": must be a directory that can be written to");
-}
-
-PlotFiles::~PlotFiles() {
-  std::error_code ignored;
-  fs::remove_all(m_aside, ignored);
+  try {
+    staged("plot");
+  } catch (const RunError&) {
+    throw InputError(optionFor(directory) + ": must be a directory that can be written to");
+  }
 }
 
 void PlotFiles::write(const Plot& plot) {
-  const std::string csv = plot.name + ".csv";
-  const std::string svg = plot.name + ".svg";
-  const std::string png = plot.name + ".png";
-  writeAside(csv, csvOf(plot));
-  publish(csv);
+  const fs::path csv = m_directory / (plot.name + ".csv");
+  StagedOutput table = staged(plot.name + ".csv");
+  writeText(table, csv, csvOf(plot));
+  table.commit();
   if (!m_hasPictures) return;
-  writeAside("script.gnuplot", gnuplotScript(plot, (m_directory / csv).string(), aside(svg), aside(png)));
-  m_hasPictures = runGnuplot(aside("script.gnuplot"));
+  StagedOutput svg = staged(plot.name + ".svg");
+  StagedOutput png = staged(plot.name + ".png");
+  const StagedOutput script = staged("script.gnuplot");  // stays nowhere
+  writeText(script, m_directory, gnuplotScript(plot, csv.string(), svg.path(), png.path()));
+  m_hasPictures = runGnuplot(script.path());
   if (!m_hasPictures) return;
-  publish(svg);
-  publish(png);
+  publish(svg, plot.name + ".svg");
+  publish(png, plot.name + ".png");
 }
 
-void PlotFiles::writeAside(const std::string& name, const std::string& text) const {
-  std::ofstream file(m_aside / name, std::ios::binary | std::ios::trunc);
-  file << text << std::flush;
-  if (!file) throw notWritten(m_directory / name);
+StagedOutput PlotFiles::staged(const std::string& name) const {
+  const fs::path path = m_directory / name;
+  try {
+    return {optionFor(path), path.string(), StagedOutput::Kind::file};
+  } catch (const InputError&) {
+    throw notWritten(path);
+  }
 }
 
-void PlotFiles::publish(const std::string& name) const {
+void PlotFiles::publish(StagedOutput& picture, const std::string& name) const {
   std::error_code failed;
-  fs::rename(m_aside / name, m_directory / name, failed);
-  if (failed) throw notWritten(m_directory / name);
+  const bool isEmpty = fs::file_size(picture.path(), failed) == 0;
+  if (failed || isEmpty) throw notWritten(m_directory / name);
+  picture.commit();
 }
 
 }  // namespace command

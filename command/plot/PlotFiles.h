@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "command/cli/StagedOutput.h"
 #include "command/plot/Plot.h"
 
 #include <filesystem>
@@ -8,15 +9,11 @@
 
 namespace command {
 
-/// Writes plots into a directory. Files are made in a directory aside and then renamed, so that none is ever seen
-/// half-written; what is aside goes with the object.
+/// Writes plots into a directory, in which none is ever seen half-written.
 class PlotFiles {
  public:
   /// Makes the directory. Throws InputError when it cannot be made or written to.
   explicit PlotFiles(const std::string& directory);
-  ~PlotFiles();
-  PlotFiles(const PlotFiles&) = delete;
-  PlotFiles& operator=(const PlotFiles&) = delete;
 
   /// NAME.csv and, where gnuplot is, NAME.svg and NAME.png. Throws RunError when they cannot be written or gnuplot
   /// fails; the table, if it could be written, stays.
@@ -26,12 +23,11 @@ class PlotFiles {
   bool hasPictures() const { return m_hasPictures; }
 
  private:
-  std::string aside(const std::string& name) const { return (m_aside / name).string(); }
-  void writeAside(const std::string& name, const std::string& text) const;
-  void publish(const std::string& name) const;
+  StagedOutput staged(const std::string& name) const;
+  /// What gnuplot has drawn; it may say that all is well and have drawn nothing.
+  void publish(StagedOutput& picture, const std::string& name) const;
 
   std::filesystem::path m_directory;
-  std::filesystem::path m_aside;
   bool m_hasPictures = true;
 };
 

@@ -29,8 +29,7 @@ class Strip {
     m_patch.edgeV = btVector3(0, btScalar(length), 0);
     m_patch.pinnedEdges = {wetcloth::ClothPatch::Edge::left, wetcloth::ClothPatch::Edge::right};
     btSoftBody& body = m_world.add(m_patch.build(m_world.worldInfo()));
-    m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_world.world());
-    m_cloth = &m_wetWorld->add(body, wetcloth::Fabric::cotton());
+    m_cloth = &m_world.wet().add(body, wetcloth::Fabric::cotton());
     m_cloth->add<wetcloth::Immersion>();
     m_cloth->add<wetcloth::Diffusion>();
     if (feelsGravity) m_cloth->add<wetcloth::Seepage>();
@@ -58,7 +57,6 @@ class Strip {
  private:
   BulletWorld m_world;
   wetcloth::ClothPatch m_patch;
-  std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;
   wetcloth::WetCloth* m_cloth = nullptr;
   long long m_steps = 0;
 };

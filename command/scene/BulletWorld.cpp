@@ -33,6 +33,7 @@ BulletWorld::BulletWorld(const Settings& settings)
 }
 
 BulletWorld::~BulletWorld() {
+  m_wet.reset();  // it detaches while all is there
   for (const auto& body : m_softBodies) m_removeSoftBody(body.get());
   for (const auto& body : m_rigidBodies) m_world->removeRigidBody(body.get());
   m_worldInfo->m_sparsesdf.Reset();
@@ -75,6 +76,11 @@ void BulletWorld::makeDeformable() {
   m_world = std::move(world);
 }
 
+wetcloth::WetClothWorld& BulletWorld::wet() {
+  if (!m_wet) m_wet = std::make_unique<wetcloth::WetClothWorld>(*m_world);
+  return *m_wet;
+}
+
 btSoftBody& BulletWorld::add(std::unique_ptr<btSoftBody> body, const DeformableSprings* springs) {
   btSoftBody& added = *body;
   added.m_cfg.piterations = m_settings.iterations;
@@ -103,6 +109,23 @@ const btCollisionObject& BulletWorld::addStatic(std::unique_ptr<btCollisionShape
   auto body = std::make_unique<btRigidBody>(0, nullptr, shape.get(), btVector3(0, 0, 0));
   body->setWorldTransform(place);
   body->setFriction(1);  // the cloth's own friction decides
+  return keep(std::move(shape), std::move(body));
+}
+
+btRigidBody& BulletWorld::addRigid(std::unique_ptr<btCollisionShape> shape, double mass, const btVector3& position) {
+  btVector3 inertia(0, 0, 0);
+  if (mass > 0) shape->calculateLocalInertia(btScalar(mass), inertia);
+  btRigidBody::btRigidBodyConstructionInfo info(btScalar(mass), nullptr, shape.get(), inertia);
+  info.m_startWorldTransform.setIdentity();
+  info.m_startWorldTransform.setOrigin(position);
+  info.m_friction = 1;
+  auto body = std::make_unique<btRigidBody>(info);
+  if (mass == 0) body->setCollisionFlags(body->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+  body->setActivationState(DISABLE_DEACTIVATION);
+  return keep(std::move(shape), std::move(body));
+}
+
+btRigidBody& BulletWorld::keep(std::unique_ptr<btCollisionShape> shape, std::unique_ptr<btRigidBody> body) {
   m_world->addRigidBody(body.get());
   m_shapes.push_back(std::move(shape));
   m_rigidBodies.push_back(std::move(body));

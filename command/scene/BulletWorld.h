@@ -33,16 +33,22 @@ class BulletWorld {
   btDiscreteDynamicsWorld& world() { return *m_world; }
   btSoftBodyWorldInfo& worldInfo() { return *m_worldInfo; }
 
+  /// The library's world on it, made when it is first asked for: a world that never is runs in Bullet alone.
+  wetcloth::WetClothWorld& wet();
+
   /// Takes the body into the world. In the deformable world it gets gravity, and springs if there are any.
   btSoftBody& add(std::unique_ptr<btSoftBody> body, const DeformableSprings* springs = nullptr);
   /// A body that nothing moves.
   const btCollisionObject& addStatic(std::unique_ptr<btCollisionShape> shape, const btTransform& place);
+  /// A body that moves, or, with a mass of 0 [kg], one that is moved: a kinematic one. It stays awake.
+  btRigidBody& addRigid(std::unique_ptr<btCollisionShape> shape, double mass, const btVector3& position);
   void substep(btScalar dt) { m_world->stepSimulation(dt, 0); }
 
  private:
   void makeSoftRigid();
   void makeSoftMultiBody();
   void makeDeformable();
+  btRigidBody& keep(std::unique_ptr<btCollisionShape> shape, std::unique_ptr<btRigidBody> body);
   void addForce(btSoftBody& body, std::unique_ptr<btDeformableLagrangianForce> force);
 
   Settings m_settings;
@@ -59,6 +65,7 @@ class BulletWorld {
   std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
   std::vector<std::unique_ptr<btRigidBody>> m_rigidBodies;
   std::vector<std::unique_ptr<btSoftBody>> m_softBodies;
+  std::unique_ptr<wetcloth::WetClothWorld> m_wet;
 };
 
 }  // namespace command

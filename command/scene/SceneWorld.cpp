@@ -45,8 +45,8 @@ constexpr double planeHalfExtent = 50;
 
 }  // namespace
 
-SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_world(settingsOf(scene)), m_drops(scene) {
-  if (kind == Kind::wet) m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_world.world());
+SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_drops(scene), m_world(settingsOf(scene)) {
+  if (kind == Kind::wet) m_wetWorld = &m_world.wet();
   if (scene.water) addWater(*scene.water);
   for (const Collider& collider : scene.colliders) addCollider(collider);
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "command/scene/FallingDrops.h"
 #include "command/scene/BulletWorld.h"
+#include "command/scene/FallingDrops.h"
 #include "command/scene/Motion.h"
 #include "command/scene/Scene.h"
 #include "command/scene/Twist.h"
@@ -60,9 +60,9 @@ class SceneWorld {
   void addCollider(const Collider& collider);
 
   const Scene& m_scene;
+  FallingDrops m_drops;  // before the world: its effects tell it of drops
   BulletWorld m_world;
-  FallingDrops m_drops;                                 // before the effects that it follows
-  std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;  // after the world: it detaches before the world goes
+  wetcloth::WetClothWorld* m_wetWorld = nullptr;  // null in plain Bullet
   std::vector<btSoftBody*> m_bodies;
   std::vector<wetcloth::WetCloth*> m_cloths;
   std::vector<wetcloth::CollisionAudit*> m_audits;

@@ -41,13 +41,8 @@ CaseScene::CaseScene(World world, Way way, double dt, const btVector3& gravity)
   settings.implicit = world == World::deformableImplicit;
   m_bullet = std::make_unique<command::BulletWorld>(settings);
   if (!isOurs()) return;
-  m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(bullet());
+  m_wetWorld = &m_bullet->wet();
   m_wetWorld->setLog({});
-}
-
-CaseScene::~CaseScene() {
-  m_wetWorld.reset();
-  for (const auto& body : m_rigidBodies) bullet().removeRigidBody(body.get());
 }
 
 btSoftBody& CaseScene::add(std::unique_ptr<btSoftBody> body, double stiffness) {
@@ -89,22 +84,6 @@ wetcloth::WetCloth* CaseScene::wet(btSoftBody& body, const wetcloth::Fabric& fab
     cloth.wet->add<wetcloth::HookeSprings>(springs);
   }
   return cloth.wet;
-}
-
-btRigidBody& CaseScene::addRigid(std::unique_ptr<btCollisionShape> shape, double mass, const btVector3& position) {
-  btVector3 inertia(0, 0, 0);
-  if (mass > 0) shape->calculateLocalInertia(btScalar(mass), inertia);
-  btRigidBody::btRigidBodyConstructionInfo info(btScalar(mass), nullptr, shape.get(), inertia);
-  info.m_startWorldTransform.setIdentity();
-  info.m_startWorldTransform.setOrigin(position);
-  info.m_friction = 1;
-  auto body = std::make_unique<btRigidBody>(info);
-  if (mass == 0) body->setCollisionFlags(body->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
-  body->setActivationState(DISABLE_DEACTIVATION);
-  bullet().addRigidBody(body.get());
-  m_shapes.push_back(std::move(shape));
-  m_rigidBodies.push_back(std::move(body));
-  return *m_rigidBodies.back();
 }
 
 btRigidBody& CaseScene::addFloor(double height) {

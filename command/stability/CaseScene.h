@@ -9,6 +9,7 @@
 
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace stability {
@@ -28,7 +29,6 @@ struct Limits {
 class CaseScene {
  public:
   CaseScene(World world, Way way, double dt, const btVector3& gravity = btVector3(0, btScalar(-9.81), 0));
-  ~CaseScene();
   CaseScene(const CaseScene&) = delete;
   CaseScene& operator=(const CaseScene&) = delete;
 
@@ -61,9 +61,11 @@ class CaseScene {
   /// Makes a body of this scene wettable; null unless this is our way.
   wetcloth::WetCloth* wet(btSoftBody& body, const wetcloth::Fabric& fabric = wetcloth::Fabric::cotton());
   /// The WetClothWorld; null unless this is our way.
-  wetcloth::WetClothWorld* wetWorld() { return m_wetWorld.get(); }
+  wetcloth::WetClothWorld* wetWorld() { return m_wetWorld; }
   /// A rigid body; a mass of 0 is a kinematic one, which the case moves by moveKinematic().
-  btRigidBody& addRigid(std::unique_ptr<btCollisionShape> shape, double mass, const btVector3& position);
+  btRigidBody& addRigid(std::unique_ptr<btCollisionShape> shape, double mass, const btVector3& position) {
+    return m_bullet->addRigid(std::move(shape), mass, position);
+  }
   /// A floor whose top is at this height.
   btRigidBody& addFloor(double height);
   /// Takes a soft body out of the Bullet world, and puts it back.
@@ -98,10 +100,8 @@ class CaseScene {
   double m_duration = 0;
   int m_steps = 0;
   std::unique_ptr<command::BulletWorld> m_bullet;
-  std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
-  std::vector<std::unique_ptr<btRigidBody>> m_rigidBodies;
   std::vector<Cloth> m_cloths;
-  std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;
+  wetcloth::WetClothWorld* m_wetWorld = nullptr;
 };
 
 /// Moves a kinematic body in the step that is next to where it shall be at its end, with the velocity that takes it
