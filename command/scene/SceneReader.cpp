@@ -2,7 +2,6 @@
 #include "command/scene/SceneReader.h"
 
 #include "command/cli/Errors.h"
-#include "command/scene/EffectReader.h"
 #include "command/scene/JsonCursor.h"
 #include "command/scene/ObjReader.h"
 #include "command/scene/Quality.h"
@@ -191,7 +190,7 @@ MotionScene readMotion(JsonCursor cursor, const ClothScene& cloth) {
   return motion;
 }
 
-ClothScene readCloth(JsonCursor cursor, const Scene& scene) {
+ClothScene readCloth(JsonCursor cursor, const Scene& scene, const EffectCatalogue& catalogue) {
   cursor.expectObject(keys::cloth);
   ClothScene cloth;
   if (const auto name = cursor.find("name")) cloth.name = name->text();
@@ -211,7 +210,7 @@ ClothScene readCloth(JsonCursor cursor, const Scene& scene) {
   if (const auto twist = cursor.find("twist")) cloth.twist = readTwist(*twist, cloth);
   if (const auto motion = cursor.find("motion")) cloth.motion = readMotion(*motion, cloth);
   readSprings(cursor, scene.world, cloth.springs);
-  if (const auto effects = cursor.find("effects")) cloth.effects = readEffects(*effects, {scene, cloth});
+  if (const auto effects = cursor.find("effects")) cloth.effects = readEffects(*effects, {scene, cloth}, catalogue);
   return cloth;
 }
 
@@ -291,7 +290,7 @@ PrecisionWish readPrecision(const std::string& file) {
   return {precisionAt(cursor), file + ": /precision"};
 }
 
-Scene readScene(const std::string& file) {
+Scene readScene(const std::string& file, const EffectCatalogue& catalogue) {
   const Json json = loadJson(file);
   JsonCursor cursor(json, file);
   cursor.expectObject(keys::scene);
@@ -308,7 +307,7 @@ Scene readScene(const std::string& file) {
   }
   if (const auto water = cursor.find("water")) scene.water = readWater(*water);
   for (const JsonCursor& cloth : cursor.at("cloths").elements()) {
-    scene.cloths.push_back(readCloth(cloth, scene));
+    scene.cloths.push_back(readCloth(cloth, scene, catalogue));
   }
   if (scene.cloths.empty()) cursor.at("cloths").reject("an array with at least one cloth");
   if (const auto camera = cursor.find("camera")) scene.camera = readCamera(*camera);

@@ -29,16 +29,16 @@ Effect& add(WetCloth& cloth, std::unique_ptr<Effect> effect) { return cloth.add(
 
 }  // namespace
 
-EffectSwitches::EffectSwitches(const command::Scene& scene)
+EffectSwitches::EffectSwitches(const command::Scene& scene, const command::EffectCatalogue& catalogue)
     : m_isDeformable(scene.world == command::WorldKind::deformable), m_commit(m_clock.addPart()) {
-  for (const OfferedEffect& offered : effectMenu(scene)) {
+  for (const command::EffectEntry& offered : catalogue) {
     const bool named = isNamed(scene, offered.key);
     if (!named && !offered.byDefault) continue;
     m_switches.push_back({offered.key, named, named, false, ""});
     Row row{m_clock.addPart(), {}, {}};
     for (const command::ClothScene& cloth : scene.cloths) {
       const command::EffectScene* own = find(cloth, offered.key);
-      row.perCloth.push_back(own != nullptr ? own->addTo : named ? command::AddEffect() : offered.byDefault);
+      row.perCloth.push_back(own != nullptr ? own->addTo : named ? command::AddEffect() : offered.byDefault(scene));
     }
     m_rows.push_back(std::move(row));
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Zlib
+#include "tests/command/MadeUpEffect.h"
 #include "tests/command/viewer/ViewerScene.h"
 
 #include "command/run/StateHash.h"
@@ -137,4 +138,18 @@ TEST(EffectSwitches, ScenesOfTheExamplesBeginWithTheirOwnEffects) {
   }
   run(live, 3);
   EXPECT_EQ(live.failure(), "");
+}
+
+TEST(EffectSwitches, AnEffectThatIsInTheCatalogueAloneIsOffered) {
+  command::Scene scene = hangingTowel();
+  LiveScene live(scene, command::catalogueWithDew());
+  const std::size_t dew = indexOf(live, "dew");
+  EXPECT_FALSE(live.effects().list()[dew].isOn);
+  live.turnEffect(dew, true);
+  run(live, 2);
+  EXPECT_GT(live.waterHeld(), 0);
+  live.turnEffect(dew, false);
+  const double held = live.waterHeld();
+  run(live, 2);
+  EXPECT_EQ(live.waterHeld(), held);
 }
