@@ -86,10 +86,23 @@ TEST(Stability, MarkdownGoesBetweenItsLines) {
   EXPECT_NE(text.find("| `wind_edge_on` | soft_rigid |"), std::string::npos) << text;
 }
 
+TEST(Stability, OutcomesAreWrittenAnew) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("outcomes.txt", "OLD\n");
+  const Outcome outcome = runWetcloth({"stability", "--case", "wind_edge_on", "--world", "soft_rigid", "--quick",
+                                       "--precision", testedPrecision(), "--outcomes", file});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  std::ifstream stream(file);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  EXPECT_EQ(text.find("OLD"), std::string::npos);
+  EXPECT_NE(text.find("\nwind_edge_on soft_rigid 1/240 holds 1/30 holds\n"), std::string::npos) << text;
+}
+
 TEST(Stability, BadInputIsRefusedInOneLine) {
   expectRefusal(runWetcloth({"stability", "--case", "wind_edge_onn"}), {"--case", "wind_edge_onn", "wind_edge_on"});
   expectRefusal(runWetcloth({"stability", "--group", "wind"}), {"--group", "winds"});
   expectRefusal(runWetcloth({"stability", "--world", "soft"}), {"--world", "soft_rigid"});
+  expectRefusal(runWetcloth({"stability", "--outcomes", "/no/such/folder/x.txt"}), {"--outcomes", "/no/such/folder"});
   expectRefusal(runWetcloth({"stability", "--precision", "half"}), {"--precision", "float32"});
   for (const char* const step : {"0", "-1", "2", "1/0", "1/x", "nan", "1/240s", "/"}) {
     expectRefusal(runWetcloth({"stability", "--step", step}), {"--step", step, "[0.0001, 1]"});
