@@ -143,6 +143,7 @@ EffectEntry rain() {
     parameters.direction = -scene.up();
     return addEffect<Rain>(parameters);
   };
+  entry.needs.faces = true;
   entry.water = WaterRole::brings;
   return entry;
 }
@@ -169,6 +170,7 @@ EffectEntry splash() {
   entry.parts = {streamSphereKeys(), streamConeKeys()};
   entry.read = readSplash;
   entry.example = {{"sphere", {{"centre_m", {0.5, 0.5, 0}}, {"radius_m", 0.2}}}, {"velocity_m_s", {0, 0, 5}}};
+  entry.needs.faces = true;
   entry.water = WaterRole::brings;
   return entry;
 }

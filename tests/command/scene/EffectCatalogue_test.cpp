@@ -23,7 +23,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace wetcloth_test {
+namespace wetcloth_test::effect_catalogue_test {
 namespace {
 
 using namespace command;
@@ -195,16 +195,16 @@ TEST(MadeUpEffect, IsInTheTable) {
 }
 
 TEST(DryScene, LeavesOutWhatBringsMovesOrTakesWater) {
-  const Scene scene = sceneForAll();
-  Scene wet = scene;
+  Scene wet = sceneForAll();
   for (const EffectEntry& entry : effectCatalogue()) {
     wet.cloths[0].effects.push_back({entry.key, {}, entry.water});
   }
+  const Scene dry = dryScene(wet);
   std::set<std::string> left;
-  for (const EffectScene& effect : dryScene(wet).cloths[0].effects) left.insert(effect.key);
+  for (const EffectScene& effect : dry.cloths[0].effects) left.insert(effect.key);
   EXPECT_EQ(left, (std::set<std::string>{"hooke_springs", "wet_stiffness", "swelling", "wind", "water_drag", "cling",
                                          "wet_friction", "collision_audit"}));
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::effect_catalogue_test
