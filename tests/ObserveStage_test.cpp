@@ -7,9 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::observe_stage_test {
 
 namespace {
 
@@ -141,4 +139,4 @@ TEST(ObserveStageOf, CollisionAudit) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::observe_stage_test

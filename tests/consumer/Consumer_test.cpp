@@ -10,9 +10,7 @@
 #include <string>
 #include <utility>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::consumer_test {
 
 namespace {
 
@@ -64,4 +62,4 @@ TEST(Version, OfHeadersAndLibraryIsOne) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::consumer_test

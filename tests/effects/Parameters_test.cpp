@@ -16,7 +16,7 @@
 #include <variant>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::parameters_test {
 namespace {
 
 using namespace wetcloth;
@@ -718,4 +718,4 @@ TEST(CollisionAuditParameters, KeepTheTotalsWhenTheTierChanges) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::parameters_test

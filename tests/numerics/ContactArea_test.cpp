@@ -5,7 +5,7 @@
 
 #include "tests/support/ContactScene.h"
 
-namespace wetcloth_test {
+namespace wetcloth_test::contact_area_test {
 
 namespace {
 
@@ -21,4 +21,4 @@ TEST(ContactArea, IsAThirdOfTheTrianglesOrTheMassOverTheArealDensity) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::contact_area_test
