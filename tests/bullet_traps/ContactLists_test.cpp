@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // When Bullet's lists of contacts are filled, which collision flags fill them, and which it forgets to empty.
 
+#include "bullet_wetcloth/bullet/Contacts.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ContactScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/RigidBody.h"
 
 #include <algorithm>
 
@@ -51,8 +57,8 @@ struct Watch {
   int rigidBefore = 0, rigidAt = 0, softBefore = 0, softAt = 0;
 
   explicit Watch(Sheets& sheets) : body(sheets.lower.get()) {
-    sheets.bullet.world().setInternalTickCallback(preTick, this, true);
-    sheets.bullet.world().setInternalTickCallback(tick, this, false);
+    sheets.bullet().world().setInternalTickCallback(preTick, this, true);
+    sheets.bullet().world().setInternalTickCallback(tick, this, false);
   }
   int rigid() const {
     return body->m_rcontacts.size() + body->m_nodeRigidContacts.size() + body->m_faceRigidContacts.size();
@@ -76,10 +82,10 @@ class ContactLists : public InEveryWorld {};
 TEST_P(ContactLists, OfRigidBodiesAreFullInTheTickAndStillInTheNextPreTick) {
   Sheets sheets(GetParam(), contactFlags(GetParam()));
   const Watch watch(sheets);
-  sheets.bullet.step(1);
+  sheets.bullet().step(1);
   EXPECT_EQ(watch.rigidBefore, 0);
   EXPECT_EQ(watch.rigidAt, 16);
-  sheets.bullet.step(1);
+  sheets.bullet().step(1);
   EXPECT_EQ(watch.rigidBefore, 16);
 }
 
@@ -87,9 +93,9 @@ TEST_P(ContactLists, OfRigidBodiesAreFullInTheTickAndStillInTheNextPreTick) {
 TEST_P(ContactLists, OfSoftBodiesAreEmptyInTheTickOfTheDeformableWorld) {
   Sheets sheets(GetParam(), contactFlags(GetParam()));
   const Watch watch(sheets);
-  sheets.bullet.step(240);
+  sheets.bullet().step(240);
   EXPECT_GT(watch.softBefore, 0);
-  EXPECT_EQ(watch.softAt > 0, !sheets.bullet.isDeformable());
+  EXPECT_EQ(watch.softAt > 0, !sheets.bullet().isDeformable());
 }
 
 // What another world would solve is listed all the same, never solved, and never emptied: it grows step by step.
@@ -97,9 +103,9 @@ TEST_P(ContactLists, GrowWithoutEndWithAnotherWorldsFlags) {
   const bool isDeformable = Sheets(GetParam(), 0).bullet.isDeformable();
   Sheets sheets(GetParam(), contactFlags(isDeformable ? WorldKind::softRigid : WorldKind::deformable));
   const Watch watch(sheets);
-  sheets.bullet.step(10);
+  sheets.bullet().step(10);
   EXPECT_GT(watch.rigid(), 100);
-  sheets.bullet.step(240);
+  sheets.bullet().step(240);
   EXPECT_LT(double(sheets.lower->m_nodes[0].m_x.y()), -1) << "and the cloth falls through the floor";
 }
 
@@ -108,7 +114,7 @@ WETCLOTH_IN_EVERY_WORLD(ContactLists);
 TEST(ContactListsOfTheDeformableWorld, NeedAFlagForNodesOrTriangles) {
   for (const int more : {0, int(Flags::SDF_RDN), int(Flags::SDF_RDF)}) {
     Sheets sheets(WorldKind::deformable, Flags::SDF_RD | more);
-    sheets.bullet.step(240);
+    sheets.bullet().step(240);
     EXPECT_EQ(double(sheets.lower->m_nodes[0].m_x.y()) < -1, more == 0) << more;
   }
 }
@@ -117,15 +123,15 @@ TEST(ContactListsOfTheDeformableWorld, NeedAFlagForNodesOrTriangles) {
 TEST(ContactListsOfTheDeformableWorld, OfSoftBodiesMakeNoTwoRunsAlike) {
   Sheets once(WorldKind::deformable, contactFlags(WorldKind::deformable));
   Sheets again(WorldKind::deformable, contactFlags(WorldKind::deformable));
-  once.bullet.step(240);
-  again.bullet.step(240);
+  once.bullet().step(240);
+  again.bullet().step(240);
   EXPECT_FALSE(sameBits(stateOf(*once.upper), stateOf(*again.upper)));
 }
 
 // So an effect that looks at them before the prediction sees contacts of the day when the body fell asleep.
 TEST(ContactListsOfTheDeformableWorld, OfASleeperStay) {
   Sheets sheets(WorldKind::deformable, Flags::SDF_RD | Flags::SDF_RDN);
-  sheets.bullet.step(2000);
+  sheets.bullet().step(2000);
   ASSERT_FALSE(sheets.lower->isActive());
   EXPECT_EQ(sheets.lower->m_nodeRigidContacts.size(), 16);
 }
