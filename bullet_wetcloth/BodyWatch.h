@@ -9,7 +9,7 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 /// Notices that a body was cut or refined: that its nodes, links or faces changed in number.
-class BodyWatch {
+class WETCLOTH_EXPORT BodyWatch {
  public:
   explicit BodyWatch(const btSoftBody& body) : m_body(body) { remember(); }
 

@@ -39,12 +39,6 @@ bool EffectList::has(Stage stage) const {
                      [stage](const Entry& entry) { return entry.effect->stage() == stage; });
 }
 
-Effect* EffectList::find(const void* type) const {
-  const auto isIt = [type](const Entry& entry) { return entry.type == type; };
-  const auto position = std::find_if(m_entries.begin(), m_entries.end(), isIt);
-  return position == m_entries.end() ? nullptr : position->effect.get();
-}
-
 bool EffectList::apply(Stage first, Stage last, const Step& step) {
   bool allWell = true;
   std::size_t next = 0;

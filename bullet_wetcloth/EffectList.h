@@ -15,7 +15,7 @@ inline namespace WETCLOTH_PRECISION {
 ///
 /// Effects of the library do not throw in a step, but a user's own may, and an exception must not travel through
 /// Bullet's step: an effect that throws there is removed, with a message to the world's log.
-class EffectList {
+class WETCLOTH_EXPORT EffectList {
  public:
   /// An effect, and the class that it was added as: &EffectType<E>::tag, or null when that was no more than Effect.
   struct Entry {
@@ -37,7 +37,12 @@ class EffectList {
   bool empty() const { return m_entries.empty(); }
   bool has(Stage stage) const;
   /// The first that was added as this class, or null.
-  Effect* find(const void* type) const;
+  Effect* find(const void* type) const {
+    for (const Entry& entry : m_entries) {
+      if (entry.type == type) return entry.effect.get();
+    }
+    return nullptr;
+  }
   const std::vector<Entry>& entries() const { return m_entries; }
 
   /// Applies the effects of these stages, both included. False: one threw and was removed. Never throws.

@@ -3,7 +3,6 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/bullet/SubstepHook.h"
-#include "bullet_wetcloth/shading/DebugDraw.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 #include "bullet_wetcloth/state/StateEnvelope.h"
 #include "bullet_wetcloth/state/WorldState.h"
@@ -48,12 +47,12 @@ WetClothWorld::WetClothWorld(btDynamicsWorld& world, Hook hook)
                 "that of a btSoftRigidDynamicsWorld, btSoftMultiBodyDynamicsWorld or "
                 "btDeformableMultiBodyDynamicsWorld");
   }
-  SubstepHook::attach(*this);
-  if (hook == Hook::preTick) SubstepHook::take(*this, SubstepHook::Slot::preTick);
+  m_substepHook = std::make_unique<SubstepHook>(
+      world, [this](btScalar dt) { preTick(dt); }, [this](btScalar dt) { tick(dt); });
+  if (hook == Hook::preTick) m_substepHook->take(SubstepHook::Slot::preTick);
 }
 
 WetClothWorld::~WetClothWorld() {
-  SubstepHook::detach(*this);
   for (const auto& cloth : m_cloths) {
     if (isInWorld(cloth->m_body)) cloth->m_effects.clear();
   }
@@ -96,12 +95,10 @@ WetCloth* WetClothWorld::find(const btSoftBody& body) {
 }
 
 bool WetClothWorld::isHooked() const {
-  return m_hook == Hook::preTick && SubstepHook::isInPlace(m_world, SubstepHook::Slot::preTick);
+  return m_hook == Hook::preTick && m_substepHook->isInPlace(SubstepHook::Slot::preTick);
 }
 
-bool WetClothWorld::isTickHooked() const {
-  return m_sharesTick && SubstepHook::isInPlace(m_world, SubstepHook::Slot::tick);
-}
+bool WetClothWorld::isTickHooked() const { return m_sharesTick && m_substepHook->isInPlace(SubstepHook::Slot::tick); }
 
 void WetClothWorld::preTick(btScalar dt) {
   if (!(std::isfinite(dt) && dt > 0)) return;
@@ -130,8 +127,8 @@ void WetClothWorld::shareTick() {
   if (m_hook != Hook::preTick) return;
   const auto needs = [](const std::unique_ptr<WetCloth>& cloth) { return cloth->m_effects.has(Stage::contact); };
   const bool isNeeded = std::any_of(m_cloths.begin(), m_cloths.end(), needs);
-  if (isNeeded && !m_sharesTick) SubstepHook::take(*this, SubstepHook::Slot::tick);
-  if (!isNeeded && m_sharesTick) SubstepHook::giveBack(*this, SubstepHook::Slot::tick);
+  if (isNeeded && !m_sharesTick) m_substepHook->take(SubstepHook::Slot::tick);
+  if (!isNeeded && m_sharesTick) m_substepHook->giveBack(SubstepHook::Slot::tick);
   m_sharesTick = isNeeded;
   if (isNeeded && !isTickHooked()) {
     log("wetcloth: another tick callback has replaced ours; no effect of the stage contact will run unless it calls "
@@ -179,15 +176,6 @@ bool WetClothWorld::isInWorld(const btSoftBody& body) const {
     if (bodies[i] == &body) return true;
   }
   return false;
-}
-
-void WetClothWorld::debugDraw(btIDebugDraw& drawer, double metresPerPascal) const {
-  requireFinite("metresPerPascal", metresPerPascal);
-  for (const auto& cloth : m_cloths) {
-    if (!isInWorld(cloth->m_body)) continue;
-    drawSaturation(*cloth, drawer);
-    if (metresPerPascal != 0) drawWind(*cloth, drawer, m_time, metresPerPascal);
-  }
 }
 
 void WetClothWorld::setLog(std::function<void(const std::string&)> log) { m_log = std::move(log); }

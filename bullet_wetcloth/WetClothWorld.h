@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-class btIDebugDraw;
-
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
+
+class SubstepHook;
 
 /// How a WetClothWorld gets its turn in each substep.
 enum class Hook {
@@ -64,6 +64,8 @@ class WETCLOTH_EXPORT WetClothWorld {
   const btDynamicsWorld& world() const { return m_world; }
   /// All soft bodies of the world, wet or not.
   const btAlignedObjectArray<btSoftBody*>& softBodies() const;
+  /// Whether a body is one of these. Only its address is looked at: it may have been deleted.
+  bool isInWorld(const btSoftBody& body) const;
 
   /// True while Bullet will call us: false after the application has overwritten the pre-tick callback.
   bool isHooked() const;
@@ -78,13 +80,6 @@ class WETCLOTH_EXPORT WetClothWorld {
   /// isTickHooked()). Call it from Bullet's tick callback, btDynamicsWorld::setInternalTickCallback(callback, userInfo,
   /// false). A dt that is not finite and positive is ignored. Never throws.
   void tick(btScalar dt);
-
-  /// Draws the wet cloths with the application's own drawer: triangles coloured by saturation (saturationColour()), and
-  /// as red lines the force of the air per area on each (Wind::traction()), `metresPerPascal` long for each pascal
-  /// [m/Pa], finite; 0 draws none. Cloths whose bodies left the world are left out. Call it where the application calls
-  /// btDynamicsWorld::debugDrawWorld(); the drawer's debug mode is not asked. Nothing in the step knows of it.
-  /// Throws std::invalid_argument when metresPerPascal is not finite.
-  void debugDraw(btIDebugDraw& drawer, double metresPerPascal = 0.01) const;
 
   /// Saves what this world, its bodies and its cloths carry from one step to the next: a run that is saved and restored
   /// between any two steps goes on as if nothing had been, bit for bit (docs/trust.md tells where it does not).
@@ -115,13 +110,13 @@ class WETCLOTH_EXPORT WetClothWorld {
   friend class WetCloth;
   void shareTick();
   void transferState(StateArchive& archive);
-  bool isInWorld(const btSoftBody& body) const;
   bool noticePresence(WetCloth& cloth) const;
   Step stepOf(const btSoftBody& body, btScalar dt, double time) const;
   btVector3 gravityOf(const btSoftBody& body) const;
 
   btDynamicsWorld& m_world;
   Hook m_hook;
+  std::unique_ptr<SubstepHook> m_substepHook;
   std::vector<std::unique_ptr<WetCloth>> m_cloths;
   std::function<void(const std::string&)> m_log;
   double m_time = 0;

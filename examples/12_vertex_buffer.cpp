@@ -70,7 +70,7 @@ int main() {
   }
 
   CountingDrawer drawer;
-  wet.debugDraw(drawer);
+  wetcloth::debugDraw(wet, drawer);
   std::printf("The debug drawer got %d triangles and %d lines of wind.\n", drawer.triangles, drawer.lines);
   world.removeSoftBody(body.get());
   return middle.roughness < 0.6F && drawer.triangles == body->m_faces.size() && drawer.lines > 0 ? 0 : 1;

@@ -54,7 +54,7 @@ TEST_P(CutAndRefine, KeepsTheWater) {
       {[](const btVector3& x, const btVector3&) { return double(x.x()) < 0.5 ? 1.0 : 0.25; }});
   cloth.add<wetcloth::Wind>({btVector3(0, 0, 1)});
   scene.bullet().step(30);
-  soak.setExposure(0.0);
+  adjust(soak, [](auto& p) { p.exposure = 0.0; });
   const wetcloth::Ledger before = cloth.ledger();
   const int nodes = scene.body().m_nodes.size();
   ASSERT_GT(before.held, 0);
@@ -72,7 +72,7 @@ TEST_P(CutAndRefine, KeepsTheWater) {
   EXPECT_LE(std::fabs(after.imbalance()), 1e-12 * before.held);
   EXPECT_EQ(messages.size(), 1u) << (messages.empty() ? "" : messages.back());
 
-  soak.setExposure(1.0);
+  adjust(soak, [](auto& p) { p.exposure = 1.0; });
   scene.bullet().step(60);
   EXPECT_TRUE(isFinite(scene.body()));
   EXPECT_EQ(messages.size(), 1u) << "said once: " << messages.back();

@@ -80,7 +80,7 @@ TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenTheExposureChanged) {
   wetcloth::Absorption& soak = cloth.add<wetcloth::Absorption>({0.0});
   scene.bullet().step(10);
   EXPECT_EQ(cloth.ledger().held, 0);
-  soak.setExposure(1.0);
+  adjust(soak, [](auto& p) { p.exposure = 1.0; });
   scene.bullet().step(240);
   EXPECT_NEAR(cloth.meanSaturation(), 1, 1e-12);
 }

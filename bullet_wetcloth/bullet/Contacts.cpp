@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/bullet/Contacts.h"
 
-#include "bullet_wetcloth/WetCloth.h"
-#include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/bullet/Index.h"
 
 #include <algorithm>
@@ -38,13 +36,13 @@ bool facePoint(const btSoftBody& body, const btSoftBody::Face& face, const btVec
 
 }  // namespace
 
-std::string whyNoRigidContacts(const WetCloth& cloth) {
-  const int flags = cloth.body().m_cfg.collisions;
+std::string whyNoRigidContacts(const btSoftBody& body, bool deformable) {
+  const int flags = body.m_cfg.collisions;
   const int handler = flags & Flags::RVSmask;
   if (handler == Flags::CL_RS) {
     return "the body collides by clusters (fCollision::CL_RS), and Bullet lists no nodes for these";
   }
-  if (!cloth.isInDeformableWorld()) {
+  if (!deformable) {
     if (handler == Flags::SDF_RS) return "";
     return "m_cfg.collisions has not fCollision::SDF_RS (alone of SDF_RS, CL_RS and SDF_RD), the one by which the "
            "position-based worlds list and solve contacts of nodes with rigid bodies";
@@ -58,20 +56,20 @@ std::string whyNoRigidContacts(const WetCloth& cloth) {
          "no contacts in the deformable world";
 }
 
-std::string whyNoNodeContacts(const WetCloth& cloth) {
-  const std::string why = whyNoRigidContacts(cloth);
-  if (!why.empty() || !cloth.isInDeformableWorld() || (cloth.body().m_cfg.collisions & Flags::SDF_RDN)) return why;
+std::string whyNoNodeContacts(const btSoftBody& body, bool deformable) {
+  const std::string why = whyNoRigidContacts(body, deformable);
+  if (!why.empty() || !deformable || (body.m_cfg.collisions & Flags::SDF_RDN)) return why;
   return "m_cfg.collisions has not fCollision::SDF_RDN, without which the deformable world lists contacts of "
          "triangles, "
          "not of nodes";
 }
 
-std::string whyNoFaceContacts(const WetCloth& cloth) {
-  const int flags = cloth.body().m_cfg.collisions;
+std::string whyNoFaceContacts(const btSoftBody& body, bool deformable) {
+  const int flags = body.m_cfg.collisions;
   if (flags & Flags::CL_SS) {
     return "the body collides by clusters (fCollision::CL_SS), and Bullet lists no nodes for these";
   }
-  if (cloth.isInDeformableWorld()) {
+  if (deformable) {
     if (flags & Flags::VF_DD) return "";
     return "m_cfg.collisions has not fCollision::VF_DD, by which the deformable world lists contacts of nodes with "
            "other "
@@ -82,12 +80,6 @@ std::string whyNoFaceContacts(const WetCloth& cloth) {
          "worlds list contacts of nodes with other bodies' triangles";
 }
 
-double contactArea(WetCloth& cloth, std::size_t node) {
-  const std::vector<double>& areas = cloth.restMesh().nodeAreas();
-  const double area = node < areas.size() ? areas[node] : 0;
-  return area > 0 ? area : cloth.water().dryMass(node) / cloth.fabric().arealDensity;
-}
-
 btCollisionObject* WorldObjects::find(const btCollisionObject* object) {
   if (object == m_last) return m_found;
   const btCollisionObjectArray& objects = m_world.getCollisionObjectArray();
@@ -96,9 +88,6 @@ btCollisionObject* WorldObjects::find(const btCollisionObject* object) {
   for (int i = 0; i < objects.size() && !m_found; ++i) m_found = objects[i] == object ? objects[i] : nullptr;
   return m_found;
 }
-
-RigidContacts::RigidContacts(WetCloth& cloth)
-    : m_body(cloth.body()), m_deformable(cloth.isInDeformableWorld()), m_objects(cloth.world().world()) {}
 
 int RigidContacts::size() const {
   if (!m_deformable) return m_body.m_rcontacts.size();

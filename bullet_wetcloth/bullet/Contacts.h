@@ -13,8 +13,6 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-class WetCloth;
-
 /// A node, or a point of a triangle, by the weights of its nodes: each >= 0, their sum 1.
 struct ContactPoint {
   int count = 1;  ///< 1: a node; 3: a triangle
@@ -28,12 +26,12 @@ constexpr btScalar kContactMotionTolerance = btScalar(1e-3);
 /// A contact of a cloth with a rigid body, as Bullet lists it.
 struct RigidContact {
   ContactPoint point;
-  int face = -1;                                  ///< of the triangle, when the point is on one
+  int face = -1;                                  ///< the triangle's number, -1 when the point is a node
   btCollisionObject* object = nullptr;            ///< is in the world
   btVector3 normal = btVector3(0, 0, 0);          ///< out of the object, of length 1
-  double gap = 0;                                 ///< to where the contact holds the cloth [m]; < 0: inside
-  btSoftBody::RContact* positionBased = nullptr;  ///< Bullet's own entry: one of these two
-  btSoftBody::DeformableRigidContact* deformable = nullptr;
+  double gap = 0;                                 ///< distance to where the contact holds the cloth [m]; < 0: inside
+  btSoftBody::RContact* positionBased = nullptr;  ///< Bullet's own entry; null in the deformable world
+  btSoftBody::DeformableRigidContact* deformable = nullptr;  ///< the same there; null in the other worlds
 };
 
 /// A contact of a node of one soft body with a triangle of another, as Bullet lists it.
@@ -45,19 +43,17 @@ struct FaceContact {
   btSoftBody::SContact* positionBased = nullptr;  ///< Bullet's own entry; null in the deformable world
 };
 
-/// Why Bullet keeps no list of this cloth's contacts with rigid bodies, in its world and with its collision flags;
-/// empty when it does.
-std::string whyNoRigidContacts(const WetCloth& cloth);
-/// The same of contacts of its nodes, one by one: a body of the deformable world may have triangles' contacts only.
-std::string whyNoNodeContacts(const WetCloth& cloth);
-/// The same of its contacts with other soft bodies.
-std::string whyNoFaceContacts(const WetCloth& cloth);
+/// Which contacts Bullet lists depends on the kind of world and on the body's m_cfg.collisions. These three say why a
+/// list is not kept, in words for an error message; they are empty when it is kept.
+/// Of contacts with rigid bodies:
+std::string whyNoRigidContacts(const btSoftBody& body, bool deformable);
+/// Of contacts of single nodes with rigid bodies; the deformable world may list those of triangles only:
+std::string whyNoNodeContacts(const btSoftBody& body, bool deformable);
+/// Of contacts with other soft bodies:
+std::string whyNoFaceContacts(const btSoftBody& body, bool deformable);
 
-/// The area by which a node touches [m^2], > 0: a third of its triangles at rest; for a node of no triangle its dry
-/// mass over the fabric's areal density. Builds the cloth's RestMesh when first asked for.
-double contactArea(WetCloth& cloth, std::size_t node);
-
-/// Finds objects of a world by their address alone: what a list of the last substep names may have been deleted since.
+/// Finds out whether an object is still in the world. A contact of the last substep may name one that has been deleted
+/// since, so only addresses are compared.
 class WorldObjects {
  public:
   explicit WorldObjects(const btCollisionWorld& world) : m_world(world) {}
@@ -70,11 +66,13 @@ class WorldObjects {
   btCollisionObject* m_found = nullptr;
 };
 
-/// A cloth's contacts with rigid bodies. In the stage `contact` they are those of this substep, before that those of
-/// the last one; entries whose node is no longer in the body, or whose object has left the world, are passed over.
+/// A soft body's contacts with rigid bodies. In the stage `contact` they are those of this substep, in earlier stages
+/// those of the last one. Left out are contacts of a node that is no longer in the body, and with an object that has
+/// left the world.
 class RigidContacts {
  public:
-  explicit RigidContacts(WetCloth& cloth);
+  RigidContacts(btSoftBody& body, const btCollisionWorld& world, bool deformable)
+      : m_body(body), m_deformable(deformable), m_objects(world) {}
 
   /// Calls visit(const RigidContact&) for each.
   template <class Visit>
@@ -95,9 +93,9 @@ class RigidContacts {
   WorldObjects m_objects;
 };
 
-/// Contacts of the nodes of one soft body with the triangles of another one of the same world. In the position-based
-/// worlds, at the stage `contact`, they are those of this substep; otherwise those of the last one. Entries whose node
-/// or triangle is no longer there are passed over.
+/// Contacts of the nodes of one soft body with the triangles of another one of the same world. In the stage `contact`
+/// of a position-based world they are those of this substep, otherwise those of the last one. Left out are contacts of
+/// a node or a triangle that is no longer there.
 class FaceContacts {
  public:
   FaceContacts(btSoftBody& nodesOf, btSoftBody& facesOf, bool deformable)
@@ -112,7 +110,7 @@ class FaceContacts {
       if (read(i, contact)) visitor(static_cast<const FaceContact&>(contact));
     }
   }
-  /// Of all entries in the list, also those with other bodies.
+  /// How many contacts Bullet lists for the nodes' body, those with other bodies' triangles included.
   int size() const;
 
  private:

@@ -2,10 +2,10 @@
 #include "bullet_wetcloth/bullet/SubstepHook.h"
 
 #include "bullet_wetcloth/Require.h"
-#include "bullet_wetcloth/WetClothWorld.h"
 
 #include <map>
 #include <mutex>
+#include <utility>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
@@ -27,7 +27,7 @@ struct Shared {
 };
 
 struct Entry {
-  WetClothWorld* wetWorld = nullptr;
+  const SubstepHook* hook = nullptr;
   Shared preTick;
   Shared tick;
   Shared& of(SubstepHook::Slot slot) { return slot == SubstepHook::Slot::preTick ? preTick : tick; }
@@ -63,21 +63,17 @@ Entry* findEntry(btDynamicsWorld* world) {
   return found == registry().end() ? nullptr : &found->second;
 }
 
-void onPreTick(btDynamicsWorld* world, btScalar dt) {
+void call(SubstepHook::Slot slot, btDynamicsWorld* world, btScalar dt) {
   Entry* const entry = findEntry(world);
-  if (!entry || entry->preTick.isRunning) return;
-  const RunningMark mark(entry->preTick.isRunning);
-  if (entry->preTick.applicationCallback) entry->preTick.applicationCallback(world, dt);
-  if (entry->wetWorld) entry->wetWorld->preTick(dt);
+  if (!entry || entry->of(slot).isRunning) return;
+  Shared& shared = entry->of(slot);
+  const RunningMark mark(shared.isRunning);
+  if (shared.applicationCallback) shared.applicationCallback(world, dt);
+  if (entry->hook) entry->hook->call(slot, dt);
 }
 
-void onTick(btDynamicsWorld* world, btScalar dt) {
-  Entry* const entry = findEntry(world);
-  if (!entry || entry->tick.isRunning) return;
-  const RunningMark mark(entry->tick.isRunning);
-  if (entry->tick.applicationCallback) entry->tick.applicationCallback(world, dt);
-  if (entry->wetWorld) entry->wetWorld->tick(dt);
-}
+void onPreTick(btDynamicsWorld* world, btScalar dt) { call(SubstepHook::Slot::preTick, world, dt); }
+void onTick(btDynamicsWorld* world, btScalar dt) { call(SubstepHook::Slot::tick, world, dt); }
 
 btInternalTickCallback ours(SubstepHook::Slot slot) { return slot == SubstepHook::Slot::preTick ? onPreTick : onTick; }
 
@@ -94,44 +90,42 @@ bool mayStillBeCalled(btDynamicsWorld& world, Entry& entry, SubstepHook::Slot sl
 
 }  // namespace
 
-void SubstepHook::attach(WetClothWorld& wetWorld) {
+SubstepHook::SubstepHook(btDynamicsWorld& world, Callback onPreTick, Callback onTick)
+    : m_world(world), m_onPreTick(std::move(onPreTick)), m_onTick(std::move(onTick)) {
   const std::lock_guard<std::mutex> lock(registryMutex());
-  Entry& entry = registry()[&wetWorld.world()];
-  if (entry.wetWorld) reject("world", "has a WetClothWorld already");
-  entry.wetWorld = &wetWorld;
+  Entry& entry = registry()[&m_world];
+  if (entry.hook) reject("world", "has a WetClothWorld already");
+  entry.hook = this;
 }
 
-void SubstepHook::detach(WetClothWorld& wetWorld) {
-  btDynamicsWorld& world = wetWorld.world();
+SubstepHook::~SubstepHook() {
   const std::lock_guard<std::mutex> lock(registryMutex());
-  const auto found = registry().find(&world);
+  const auto found = registry().find(&m_world);
   if (found == registry().end()) return;
   Entry& entry = found->second;
-  entry.wetWorld = nullptr;
-  putBack(world, entry, Slot::preTick);
-  putBack(world, entry, Slot::tick);
+  entry.hook = nullptr;
+  putBack(m_world, entry, Slot::preTick);
+  putBack(m_world, entry, Slot::tick);
   if (entry.preTick.isRunning || entry.tick.isRunning) return;  // by an application's callback: the entry is in use
-  if (mayStillBeCalled(world, entry, Slot::preTick) || mayStillBeCalled(world, entry, Slot::tick)) return;
+  if (mayStillBeCalled(m_world, entry, Slot::preTick) || mayStillBeCalled(m_world, entry, Slot::tick)) return;
   registry().erase(found);
 }
 
-void SubstepHook::take(WetClothWorld& wetWorld, Slot slot) {
-  btDynamicsWorld& world = wetWorld.world();
+void SubstepHook::take(Slot slot) {
   const std::lock_guard<std::mutex> lock(registryMutex());
-  btInternalTickCallback& callback = Slots::of(world, slot);
+  btInternalTickCallback& callback = Slots::of(m_world, slot);
   if (callback == ours(slot)) return;
-  registry()[&world].of(slot).applicationCallback = callback;
+  registry()[&m_world].of(slot).applicationCallback = callback;
   callback = ours(slot);
 }
 
-void SubstepHook::giveBack(WetClothWorld& wetWorld, Slot slot) {
-  btDynamicsWorld& world = wetWorld.world();
+void SubstepHook::giveBack(Slot slot) {
   const std::lock_guard<std::mutex> lock(registryMutex());
-  const auto found = registry().find(&world);
-  if (found != registry().end()) putBack(world, found->second, slot);
+  const auto found = registry().find(&m_world);
+  if (found != registry().end()) putBack(m_world, found->second, slot);
 }
 
-bool SubstepHook::isInPlace(btDynamicsWorld& world, Slot slot) { return Slots::of(world, slot) == ours(slot); }
+bool SubstepHook::isInPlace(Slot slot) const { return Slots::of(m_world, slot) == ours(slot); }
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

@@ -12,6 +12,16 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+namespace {
+
+void requireValid(const Absorption::Parameters& parameters) {
+  parameters.exposure.requireValid("Absorption.exposure");
+  requirePositive("Absorption.rampDuration", parameters.rampDuration);
+  requireFinite("Absorption.waterVelocity", parameters.waterVelocity);
+}
+
+}  // namespace
+
 double exponentialShare(double rate) { return -std::expm1(-rate); }
 
 double eulerShare(double rate) { return std::min(rate, 1.0); }
@@ -23,18 +33,14 @@ Absorption::Parameters Absorption::Parameters::paper() {
   return parameters;
 }
 
-Absorption::Absorption(Parameters parameters) : m_parameters(std::move(parameters)) {
-  m_parameters.exposure.requireValid("Absorption.exposure");
-  requirePositive("Absorption.rampDuration", m_parameters.rampDuration);
-  requireFinite("Absorption.waterVelocity", m_parameters.waterVelocity);
-}
+Absorption::Absorption(Parameters parameters) { setParameters(std::move(parameters)); }
 
-void Absorption::setExposure(Exposure exposure) {
-  exposure.requireValid("Absorption.exposure");
-  if (m_uptake.size() > 0) exposure.requireSize("Absorption.exposure", m_uptake.size());
-  m_parameters.exposure = std::move(exposure);
+void Absorption::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  const bool isAttached = m_uptake.size() > 0;
+  if (isAttached) parameters.exposure.requireSize("Absorption.exposure", m_uptake.size(), m_parameters.exposure);
+  m_parameters = std::move(parameters);
   m_nothingLeft.restart();
-  m_hasNormals = false;
 }
 
 void Absorption::attach(WetCloth& cloth) {

@@ -48,8 +48,9 @@ class WETCLOTH_EXPORT Absorption : public Effect {
   explicit Absorption(Parameters parameters);
 
   const Parameters& parameters() const { return m_parameters; }
-  /// Throws std::invalid_argument, and then nothing changes.
-  void setExposure(Exposure exposure);
+  /// Between steps, and all or nothing: throws as the constructor does, or when an exposure has not one value per node,
+  /// and then nothing has changed.
+  void setParameters(Parameters parameters);
 
   const char* name() const override { return "Absorption"; }
   Stage stage() const override { return Stage::sources; }

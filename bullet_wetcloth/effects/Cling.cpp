@@ -6,6 +6,7 @@
 #include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/bullet/Contacts.h"
 #include "bullet_wetcloth/bullet/ImpulseMatrix.h"
+#include "bullet_wetcloth/numerics/ContactArea.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
@@ -89,10 +90,11 @@ double Cling::share(double saturation) const {
 }
 
 void Cling::attach(WetCloth& cloth) {
-  const std::string why = whyNoNodeContacts(cloth);
+  const std::string why = whyNoNodeContacts(cloth.body(), cloth.isInDeformableWorld());
   if (!why.empty()) reject("Cling", why);
   m_areas.resize(cloth.water().size());
-  for (std::size_t i = 0; i < m_areas.size(); ++i) m_areas[i] = contactArea(cloth, i);
+  for (std::size_t i = 0; i < m_areas.size(); ++i)
+    m_areas[i] = contactArea(cloth.restMesh(), cloth.water(), cloth.fabric().arealDensity, i);
   m_bonds.resize(m_areas.size());
 }
 
@@ -132,7 +134,8 @@ void Cling::renew(WetCloth& cloth, bool knowsContacts) {
     for (Bond& bond : m_bonds) bond.isReported = false;
   }
   if (!knowsContacts) return;
-  RigidContacts(cloth).visit([&](const RigidContact& contact) { take(cloth, contact); });
+  RigidContacts(cloth.body(), cloth.world().world(), cloth.isInDeformableWorld())
+      .visit([&](const RigidContact& contact) { take(cloth, contact); });
 }
 
 void Cling::take(WetCloth& cloth, const RigidContact& contact) {

@@ -56,7 +56,8 @@ class WETCLOTH_EXPORT Cling : public Effect {
   explicit Cling(Parameters parameters);
 
   const Parameters& parameters() const { return m_parameters; }
-  /// Throws std::invalid_argument, and then nothing changes. Bonds stay.
+  /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed. Bonds stay, and
+  /// are held by the new stresses.
   void setParameters(Parameters parameters);
 
   /// Share of the stresses at a saturation, [0, 1].

@@ -30,6 +30,15 @@ struct CollisionAudit::Other {
 
 namespace {
 
+void requireValid(const CollisionAudit::Parameters& parameters) {
+  if (parameters.tier == collision::Tier::exact && !collision::ContinuousCheck::hasExact()) {
+    reject("CollisionAudit.tier", "this build has no exact tier; it needs Boost.Multiprecision");
+  }
+  if (parameters.mostPairsPerFace < 1) {
+    rejectValue("CollisionAudit.mostPairsPerFace", parameters.mostPairsPerFace, "at least 1");
+  }
+}
+
 // The substep as the world sees it [s].
 double worldStepOf(const WetCloth& cloth, const Step& step) {
   return cloth.isInDeformableWorld() ? step.dt : step.dt / static_cast<double>(cloth.body().m_cfg.timescale);
@@ -59,15 +68,23 @@ Passage passageOf(Pair pair, const PassageFinder::Subject& subject, const collis
 
 }  // namespace
 
-CollisionAudit::CollisionAudit(Parameters parameters)
-    : m_parameters(std::move(parameters)), m_own(std::make_unique<SweptFaces>()) {
-  if (m_parameters.tier == collision::Tier::exact && !collision::ContinuousCheck::hasExact()) {
-    reject("CollisionAudit.tier", "this build has no exact tier; it needs Boost.Multiprecision");
-  }
-  if (m_parameters.mostPairsPerFace < 1) {
-    rejectValue("CollisionAudit.mostPairsPerFace", m_parameters.mostPairsPerFace, "at least 1");
-  }
+CollisionAudit::CollisionAudit(Parameters parameters) : m_own(std::make_unique<SweptFaces>()) {
   m_passages.reserve(static_cast<std::size_t>(kMostKept));
+  setParameters(std::move(parameters));
+}
+
+void CollisionAudit::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  if (!m_finder || parameters.tier != m_parameters.tier) {
+    std::unique_ptr<PassageFinder> finder = makeFinder(parameters.tier);
+    if (m_finder) m_totals.candidatePairs += m_finder->candidates();
+    m_finder = std::move(finder);
+  }
+  if (!parameters.others) m_others.clear();
+  m_parameters = std::move(parameters);
+}
+
+std::unique_ptr<PassageFinder> CollisionAudit::makeFinder(collision::Tier tier) {
   const auto count = [this](Pair pair, const PassageFinder::Subject& subject, const collision::Contact& contact) {
     ++(pair == Pair::vertexFace ? m_totals.vertexFace : m_totals.edgeEdge);
     Passage passage = passageOf(pair, subject, contact);
@@ -75,14 +92,14 @@ CollisionAudit::CollisionAudit(Parameters parameters)
     if (m_passages.size() < static_cast<std::size_t>(kMostKept)) m_passages.push_back(passage);
     if (m_parameters.onPassage) m_parameters.onPassage(passage);
   };
-  m_finder = std::make_unique<PassageFinder>(m_parameters.tier, count);
+  return std::make_unique<PassageFinder>(tier, count);
 }
 
 CollisionAudit::~CollisionAudit() = default;
 
 AuditTotals CollisionAudit::totals() const {
   AuditTotals totals = m_totals;
-  totals.candidatePairs = m_finder->candidates();
+  totals.candidatePairs += m_finder->candidates();
   return totals;
 }
 

@@ -81,6 +81,10 @@ class WETCLOTH_EXPORT CollisionAudit : public Effect {
   CollisionAudit& operator=(const CollisionAudit&) = delete;
 
   const Parameters& parameters() const { return m_parameters; }
+  /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed. The substep that
+  /// has begun is looked at by the new ones; another tier forgets which pairs are just meeting. Not from inside
+  /// onPassage.
+  void setParameters(Parameters parameters);
   /// Since the effect was made.
   AuditTotals totals() const;
   /// Those of the substep looked at last.
@@ -106,6 +110,7 @@ class WETCLOTH_EXPORT CollisionAudit : public Effect {
  private:
   struct Other;
 
+  std::unique_ptr<PassageFinder> makeFinder(collision::Tier tier);
   void restart();
   void lookUntil(double time);
   long long mostCandidates() const;

@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/bullet/Contacts.h"
+#include "bullet_wetcloth/numerics/ContactArea.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
@@ -21,6 +22,19 @@ namespace {
 
 void requireFilm(const std::string& field, double water) {
   if (!(water >= 0)) rejectValue(field, water, ">= 0 (infinite is allowed)");
+}
+
+void requireValid(const ContactWetting::Parameters& parameters) {
+  requireNotNegative("ContactWetting.rate", parameters.rate);
+  const std::vector<ContactWetting::WetBody>& bodies = parameters.wetBodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::string field = "ContactWetting.wetBodies[" + std::to_string(i) + "]";
+    if (!bodies[i].body) reject(field + ".body", "must not be null");
+    requireFilm(field + ".water", bodies[i].water);
+    for (std::size_t k = 0; k < i; ++k) {
+      if (bodies[k].body == bodies[i].body) reject(field + ".body", "is there twice");
+    }
+  }
 }
 
 // The part of `mass` that a node has room for, so that not even a rounding goes above its capacity.
@@ -72,22 +86,19 @@ double equalisingFlow(double difference, double responseA, double responseB, dou
   return difference * -std::expm1(-conductance * response) / response;
 }
 
-ContactWetting::ContactWetting(Parameters parameters) : m_parameters(std::move(parameters)) {
-  requireNotNegative("ContactWetting.rate", m_parameters.rate);
-  const std::vector<WetBody>& bodies = m_parameters.wetBodies;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const std::string field = "ContactWetting.wetBodies[" + std::to_string(i) + "]";
-    if (!bodies[i].body) reject(field + ".body", "must not be null");
-    requireFilm(field + ".water", bodies[i].water);
-    for (std::size_t k = 0; k < i; ++k) {
-      if (bodies[k].body == bodies[i].body) reject(field + ".body", "is there twice");
-    }
-  }
+ContactWetting::ContactWetting(Parameters parameters) { setParameters(std::move(parameters)); }
+
+void ContactWetting::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  requireContacts(parameters);
+  m_parameters = std::move(parameters);
 }
 
-void ContactWetting::setRate(double rate) {
-  requireNotNegative("ContactWetting.rate", rate);
-  m_parameters.rate = rate;
+void ContactWetting::requireContacts(const Parameters& parameters) const {
+  if (!parameters.wetBodies.empty() && !m_whyNoRigidContacts.empty()) {
+    reject("ContactWetting.wetBodies", m_whyNoRigidContacts);
+  }
+  if (parameters.cloths && !m_whyNoFaceContacts.empty()) reject("ContactWetting.cloths", m_whyNoFaceContacts);
 }
 
 void ContactWetting::setFilm(const btCollisionObject& body, double water) {
@@ -115,22 +126,18 @@ double* ContactWetting::filmOn(const btCollisionObject* body) {
 }
 
 void ContactWetting::attach(WetCloth& cloth) {
-  m_whyNoRigidContacts = whyNoRigidContacts(cloth);
-  if (!m_parameters.wetBodies.empty() && !m_whyNoRigidContacts.empty()) {
-    reject("ContactWetting.wetBodies", m_whyNoRigidContacts);
-  }
-  const std::string whyNoCloths = whyNoFaceContacts(cloth);
-  if (m_parameters.cloths && !whyNoCloths.empty()) {
-    reject("ContactWetting.cloths", whyNoCloths);
-  }
-  m_hasNodeContacts = whyNoNodeContacts(cloth).empty();
+  m_whyNoRigidContacts = whyNoRigidContacts(cloth.body(), cloth.isInDeformableWorld());
+  m_whyNoFaceContacts = whyNoFaceContacts(cloth.body(), cloth.isInDeformableWorld());
+  requireContacts(m_parameters);
+  m_hasNodeContacts = whyNoNodeContacts(cloth.body(), cloth.isInDeformableWorld()).empty();
   cloth.restMesh();
   m_contactsOfNode.resize(std::max(m_contactsOfNode.size(), cloth.water().size()));
 }
 
 void ContactWetting::apply(WetCloth& cloth, const Step& step) {
   if (!m_parameters.wetBodies.empty()) {
-    RigidContacts(cloth).visit([&](const RigidContact& contact) { takeFromFilm(cloth, step, contact); });
+    RigidContacts(cloth.body(), cloth.world().world(), cloth.isInDeformableWorld())
+        .visit([&](const RigidContact& contact) { takeFromFilm(cloth, step, contact); });
   }
   if (!m_parameters.cloths) return;
   const btAlignedObjectArray<btSoftBody*>& bodies = cloth.world().softBodies();
@@ -152,7 +159,7 @@ void ContactWetting::takeFromFilm(WetCloth& cloth, const Step& step, const Rigid
     const int node = contact.point.nodes[static_cast<std::size_t>(k)];
     const std::size_t i = static_cast<std::size_t>(node);
     const double area = contact.point.count == 1
-                            ? contactArea(cloth, i)
+                            ? contactArea(cloth.restMesh(), cloth.water(), cloth.fabric().arealDensity, i)
                             : cloth.restMesh().triangles()[static_cast<std::size_t>(contact.face)].area;
     const double conductance = m_parameters.rate * area * contact.point.weights[static_cast<std::size_t>(k)] * step.dt;
     const double uptake = filmUptake(water.held(i), water.capacity(i), conductance, *film);
@@ -184,7 +191,8 @@ void ContactWetting::exchange(WetCloth& nodesOf, WetCloth& facesOf, const Step& 
   contacts.visit([&](const FaceContact& contact) { ++m_contactsOfNode[static_cast<std::size_t>(contact.node)]; });
   contacts.visit([&](const FaceContact& contact) {
     const std::size_t node = static_cast<std::size_t>(contact.node);
-    const double area = contactArea(nodesOf, node) / (2.0 * m_contactsOfNode[node]);
+    const double area = contactArea(nodesOf.restMesh(), nodesOf.water(), nodesOf.fabric().arealDensity, node) /
+                        (2.0 * m_contactsOfNode[node]);
     exchange(nodesOf, facesOf, contact, m_parameters.rate * area * step.dt);
   });
 }

@@ -61,11 +61,14 @@ class WETCLOTH_EXPORT ContactWetting : public Effect {
   /// Throws std::invalid_argument naming the field and the value.
   explicit ContactWetting(Parameters parameters);
 
+  /// With the films as they are now, less what cloths have taken.
   const Parameters& parameters() const { return m_parameters; }
-  /// Throws std::invalid_argument, and then nothing changes.
-  void setRate(double rate);
-  /// Water on a body from now on [kg], [0, inf]; a body that is not known yet is added. Throws std::invalid_argument,
-  /// also when Bullet lists no contacts with rigid bodies.
+  /// Between steps, and all or nothing: throws as the constructor does, or when Bullet does not list the contacts that
+  /// are asked for, and then nothing has changed. The films are from now on as given.
+  void setParameters(Parameters parameters);
+  /// Water on a body from now on [kg], [0, inf]; a body that is not known yet is added. Beside setParameters(), since a
+  /// film is a state that changes in each step: this wets one body, whatever is on the others. Throws
+  /// std::invalid_argument, also when Bullet lists no contacts with rigid bodies; nothing has changed then.
   void setFilm(const btCollisionObject& body, double water);
   /// Water left on a body [kg]; 0 for one that is not known.
   double film(const btCollisionObject& body) const;
@@ -81,6 +84,7 @@ class WETCLOTH_EXPORT ContactWetting : public Effect {
   long long nodesVisited() const { return m_nodesVisited; }
 
  private:
+  void requireContacts(const Parameters& parameters) const;
   double* filmOn(const btCollisionObject* body);
   void takeFromFilm(WetCloth& cloth, const Step& step, const RigidContact& contact);
   bool isSeenToBy(const WetCloth& cloth, const WetCloth& other) const;
@@ -89,7 +93,8 @@ class WETCLOTH_EXPORT ContactWetting : public Effect {
   void give(WetCloth& from, int fromNode, WetCloth& to, int toNode, double mass);
 
   Parameters m_parameters;
-  std::string m_whyNoRigidContacts;
+  std::string m_whyNoRigidContacts;  // empty: Bullet lists them, or the effect is not added yet
+  std::string m_whyNoFaceContacts;
   bool m_hasNodeContacts = false;
   std::vector<int> m_contactsOfNode;
   long long m_nodesVisited = 0;

@@ -12,7 +12,9 @@
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace wetcloth {
@@ -22,6 +24,28 @@ namespace {
 
 constexpr double kMostDiffusionSubsteps = 1000;
 constexpr double kLargestDiffusionExponent = 100;
+
+void requireValid(const Diffusion::Parameters& parameters) {
+  requirePositive("Diffusion.warpDiffusivity", parameters.warpDiffusivity);
+  requirePositive("Diffusion.weftDiffusivity", parameters.weftDiffusivity);
+  if (!(parameters.exponent >= 0 && parameters.exponent <= kLargestDiffusionExponent)) {
+    rejectValue("Diffusion.exponent", parameters.exponent, "in [0, 100]");
+  }
+  requireFinite("Diffusion.warp", parameters.warp);
+  if (directionOf(parameters.warp).isZero()) reject("Diffusion.warp", "must not be of length 0");
+  if (!(parameters.tolerance > 0 && parameters.tolerance < 1)) {
+    rejectValue("Diffusion.tolerance", parameters.tolerance, "in (0, 1)");
+  }
+}
+
+std::array<btScalar, 3> warpOf(const Diffusion::Parameters& parameters) {
+  return {parameters.warp.x(), parameters.warp.y(), parameters.warp.z()};
+}
+
+// What the edges' weights are made of.
+auto conductance(const Diffusion::Parameters& parameters) {
+  return std::make_tuple(parameters.warpDiffusivity, parameters.weftDiffusivity, warpOf(parameters));
+}
 
 std::vector<WeightedEdge> diffusionEdges(const RestMesh& mesh, const Diffusion::Parameters& parameters,
                                          const std::vector<double>& warpCoordinate) {
@@ -45,19 +69,29 @@ double diffusionPotential(double saturation, double exponent) {
 }
 
 Diffusion::Diffusion(Parameters parameters)
-    : m_parameters(std::move(parameters)),
-      m_flow(std::make_unique<EdgeFlow>()),
-      m_solver(std::make_unique<DiffusionSolver>()) {
-  requirePositive("Diffusion.warpDiffusivity", m_parameters.warpDiffusivity);
-  requirePositive("Diffusion.weftDiffusivity", m_parameters.weftDiffusivity);
-  if (!(m_parameters.exponent >= 0 && m_parameters.exponent <= kLargestDiffusionExponent)) {
-    rejectValue("Diffusion.exponent", m_parameters.exponent, "in [0, 100]");
-  }
-  requireFinite("Diffusion.warp", m_parameters.warp);
-  if (directionOf(m_parameters.warp).isZero()) reject("Diffusion.warp", "must not be of length 0");
-  if (!(m_parameters.tolerance > 0 && m_parameters.tolerance < 1)) {
-    rejectValue("Diffusion.tolerance", m_parameters.tolerance, "in (0, 1)");
-  }
+    : m_flow(std::make_unique<EdgeFlow>()), m_solver(std::make_unique<DiffusionSolver>()) {
+  setParameters(parameters);
+}
+
+void Diffusion::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  if (m_cloth && conductance(parameters) != conductance(m_parameters)) conductAs(parameters);
+  m_parameters = parameters;
+  m_steadyState.restart();
+}
+
+// Takes over what another one builds that is added now. It keeps the warp that it knows, unless that is another one.
+void Diffusion::conductAs(const Parameters& parameters) {
+  Diffusion built(parameters);
+  const bool isSameWarp = warpOf(parameters) == warpOf(m_parameters);
+  if (isSameWarp) built.m_warpCoordinate = m_warpCoordinate;
+  built.attach(*m_cloth);
+  m_flow.swap(built.m_flow);
+  m_warpCoordinate.swap(built.m_warpCoordinate);
+  m_potential.swap(built.m_potential);
+  m_fluxes.swap(built.m_fluxes);
+  m_substepFluxes.swap(built.m_substepFluxes);
+  m_solver->forgetFactor();
 }
 
 Diffusion::~Diffusion() = default;
@@ -68,6 +102,7 @@ long long Diffusion::iterations() const { return m_solver->iterations(); }
 
 void Diffusion::attach(WetCloth& cloth) {
   requireFaces("Diffusion", cloth.body());
+  m_cloth = &cloth;
   rememberWarp(cloth);
   m_flow->reset(cloth.restMesh(), diffusionEdges(cloth.restMesh(), m_parameters, m_warpCoordinate));
   m_solver->reset(m_flow->nodeCount());
@@ -77,11 +112,13 @@ void Diffusion::attach(WetCloth& cloth) {
   m_steadyState.restart();
 }
 
+void Diffusion::detach(WetCloth&) { m_cloth = nullptr; }
+
 // How far each node lies along the warp. A node made by a cut lies where its neighbours do.
 void Diffusion::rememberWarp(WetCloth& cloth) {
   const btSoftBody& body = cloth.body();
   const std::size_t known = m_warpCoordinate.size();
-  m_warpCoordinate.resize(static_cast<std::size_t>(body.m_nodes.size()), 0);
+  m_warpCoordinate.resize(cloth.water().size(), 0);
   const btVector3 warp = directionOf(m_parameters.warp);
   for (std::size_t i = known; i < m_warpCoordinate.size(); ++i) {
     if (known == 0) {
@@ -100,7 +137,7 @@ void Diffusion::rememberWarp(WetCloth& cloth) {
 }
 
 void Diffusion::apply(WetCloth& cloth, const Step& step) {
-  if (m_steadyState.isReached(cloth, step)) return;
+  if (m_steadyState.isReached(cloth.body(), cloth.water(), step.gravity)) return;
   if (m_flow->load(cloth.water())) {
     m_solver->forgetFactor();
     m_longestSubstep = longestExplicitStep(m_flow->edges(), m_flow->capacities());
@@ -118,9 +155,13 @@ void Diffusion::apply(WetCloth& cloth, const Step& step) {
     }
     m_flow->limit(m_fluxes);
   }
-  m_flow->commit(cloth, m_fluxes);
+  if (m_flow->hasMoved()) {
+    cloth.joinArrivals();
+    m_flow->commit(cloth.body(), cloth.water(), m_fluxes,
+                   [&](btSoftBody::Node& node, const btVector3& change) { cloth.push(node, change); });
+  }
   m_nodesVisited += static_cast<long long>(m_flow->nodeCount());
-  m_steadyState.note(cloth, step, m_flow->moved());
+  m_steadyState.note(cloth.body(), cloth.water(), step.gravity, step.dt, m_flow->moved());
 }
 
 void Diffusion::setPotential() {

@@ -46,8 +46,8 @@ class WETCLOTH_EXPORT Diffusion : public Effect {
     double warpDiffusivity = 5e-6;  ///< D of a saturated cloth along the warp [m^2/s], > 0. The default is a guess
     double weftDiffusivity = 5e-6;  ///< and along the weft [m^2/s], > 0. The default is a guess
     double exponent = 2;  ///< of D(s) = D s^exponent [-], in [0, 100]; 2 goes with 3 in Seepage (Brooks & Corey 1964)
-    /// Direction of the warp, of any length > 0, in the body's shape when the effect is added; projected onto each
-    /// triangle. Matters only when the two diffusivities differ.
+    /// Direction of the warp, of any length > 0, in the body's shape when the effect is added, or when the direction is
+    /// changed; projected onto each triangle. Matters only when the two diffusivities differ.
     btVector3 warp = btVector3(1, 0, 0);
     Method method = Method::factored;
     double tolerance = 1e-8;  ///< of Method::conjugateGradients: residual over that of even water [-], in (0, 1)
@@ -58,11 +58,15 @@ class WETCLOTH_EXPORT Diffusion : public Effect {
   ~Diffusion() override;
 
   const Parameters& parameters() const { return m_parameters; }
+  /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed. Other
+  /// diffusivities or another warp take the time that adding the effect took.
+  void setParameters(Parameters parameters);
 
   const char* name() const override { return "Diffusion"; }
   Stage stage() const override { return Stage::transport; }
   /// Throws std::invalid_argument when the body has no faces.
   void attach(WetCloth& cloth) override;
+  void detach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
   void transferState(StateArchive& archive) override;
 
@@ -75,11 +79,13 @@ class WETCLOTH_EXPORT Diffusion : public Effect {
   long long iterations() const;
 
  private:
+  void conductAs(const Parameters& parameters);
   void rememberWarp(WetCloth& cloth);
   void setPotential();
   void flowInSubsteps(double dt);
 
   Parameters m_parameters;
+  WetCloth* m_cloth = nullptr;
   std::unique_ptr<EdgeFlow> m_flow;
   std::unique_ptr<DiffusionSolver> m_solver;  // behind a pointer, so that Eigen stays out of this header
   SteadyState m_steadyState;

@@ -12,6 +12,17 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+namespace {
+
+void requireValid(const Dripping::Parameters& parameters) {
+  requireFraction("Dripping.holdingSaturation", parameters.holdingSaturation);
+  requirePositive("Dripping.timeConstant", parameters.timeConstant);
+  requireNotNegative("Dripping.dropMass", parameters.dropMass);
+  requireFraction("Dripping.slopeTolerance", parameters.slopeTolerance);
+}
+
+}  // namespace
+
 double drippingStep(double held, double holding, double timeConstant, double dt) {
   return held > holding ? (held - holding) * -std::expm1(-dt / timeConstant) : 0;
 }
@@ -21,21 +32,14 @@ bool isLower(const btVector3& other, const btVector3& x, const btVector3& down, 
   return static_cast<double>(towards.dot(down)) > slopeTolerance * static_cast<double>(towards.length());
 }
 
-Dripping::Dripping(Parameters parameters) : m_parameters(std::move(parameters)) {
-  requireFraction("Dripping.holdingSaturation", m_parameters.holdingSaturation);
-  requirePositive("Dripping.timeConstant", m_parameters.timeConstant);
-  requireNotNegative("Dripping.dropMass", m_parameters.dropMass);
-  requireFraction("Dripping.slopeTolerance", m_parameters.slopeTolerance);
-}
+Dripping::Dripping(Parameters parameters) { setParameters(std::move(parameters)); }
 
-void Dripping::setHoldingSaturation(double holdingSaturation) {
-  requireFraction("Dripping.holdingSaturation", holdingSaturation);
-  m_parameters.holdingSaturation = holdingSaturation;
+void Dripping::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  m_parameters = std::move(parameters);
   m_nothingLeft.restart();
   m_steadyState.restart();
 }
-
-void Dripping::setOnDrip(std::function<void(const Drip&)> onDrip) { m_parameters.onDrip = std::move(onDrip); }
 
 void Dripping::attach(WetCloth& cloth) {
   requireFaces("Dripping", cloth.body());
@@ -54,7 +58,7 @@ void Dripping::apply(WetCloth& cloth, const Step& step) {
   if (!(gravity > 0 && std::isfinite(gravity))) return;
   Water& water = cloth.water();
   if (m_nothingLeft.holds(water)) return;
-  if (m_steadyState.isReached(cloth, step)) return;
+  if (m_steadyState.isReached(cloth.body(), cloth.water(), step.gravity)) return;
 
   const btVector3 down = step.gravity / gravity;
   bool hasExcess = false;
@@ -71,7 +75,7 @@ void Dripping::apply(WetCloth& cloth, const Step& step) {
   m_nodesVisited += static_cast<long long>(m_carry.size());
   m_nothingLeft.note(water, !hasExcess);
   // However slowly a node drips, it drips on: only when none does may the cloth's shape decide when to look again.
-  m_steadyState.note(cloth, step, drips ? water.totalCapacity() : 0);
+  m_steadyState.note(cloth.body(), cloth.water(), step.gravity, step.dt, drips ? water.totalCapacity() : 0);
 }
 
 double Dripping::pendingMass() const {

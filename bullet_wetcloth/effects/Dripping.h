@@ -63,10 +63,9 @@ class WETCLOTH_EXPORT Dripping : public Effect {
   explicit Dripping(Parameters parameters);
 
   const Parameters& parameters() const { return m_parameters; }
-  /// As when a cloth is wrung. Throws std::invalid_argument, and then nothing changes.
-  void setHoldingSaturation(double holdingSaturation);
-  /// Who takes the drops from now on, see Parameters::onDrip; an empty function: nobody. Not from inside onDrip.
-  void setOnDrip(std::function<void(const Drip&)> onDrip);
+  /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed. Not from inside
+  /// onDrip.
+  void setParameters(Parameters parameters);
 
   const char* name() const override { return "Dripping"; }
   Stage stage() const override { return Stage::losses; }

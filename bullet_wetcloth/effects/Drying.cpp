@@ -24,9 +24,20 @@ constexpr double kLatentHeat = 2.45e6;               // lambda [J/kg]
 
 double windFunction(double airSpeed) { return 1 + kWindFunction * airSpeed; }
 
-void requireClimate(double temperature, double relativeHumidity) {
-  if (!(temperature >= 0 && temperature <= 60)) rejectValue("Drying.temperature", temperature, "in [0, 60]");
-  requireFraction("Drying.relativeHumidity", relativeHumidity);
+void requireValid(const Drying::Parameters& parameters) {
+  if (!(parameters.temperature >= 0 && parameters.temperature <= 60)) {
+    rejectValue("Drying.temperature", parameters.temperature, "in [0, 60]");
+  }
+  requireFraction("Drying.relativeHumidity", parameters.relativeHumidity);
+  parameters.air.requireValid("Drying.air");
+  if (!(parameters.criticalSaturation > 0 && parameters.criticalSaturation <= 1)) {
+    rejectValue("Drying.criticalSaturation", parameters.criticalSaturation, "in (0, 1]");
+  }
+  if (!(parameters.sides > 0 && parameters.sides <= 2)) rejectValue("Drying.sides", parameters.sides, "in (0, 2]");
+  if (!(parameters.selfCooling > 0 && parameters.selfCooling <= 1)) {
+    rejectValue("Drying.selfCooling", parameters.selfCooling, "in (0, 1]");
+  }
+  parameters.exposure.requireValid("Drying.exposure");
 }
 
 double stillAirRate(const Drying::Parameters& parameters) {
@@ -60,39 +71,15 @@ double dryingTime(double from, double to, double critical, double rate) {
   return (constant + falling) / rate;
 }
 
-Drying::Drying(Parameters parameters) : m_parameters(std::move(parameters)) {
-  requireClimate(m_parameters.temperature, m_parameters.relativeHumidity);
-  m_parameters.air.requireValid("Drying.air");
-  const double critical = m_parameters.criticalSaturation;
-  if (!(critical > 0 && critical <= 1)) rejectValue("Drying.criticalSaturation", critical, "in (0, 1]");
-  if (!(m_parameters.sides > 0 && m_parameters.sides <= 2)) {
-    rejectValue("Drying.sides", m_parameters.sides, "in (0, 2]");
-  }
-  if (!(m_parameters.selfCooling > 0 && m_parameters.selfCooling <= 1)) {
-    rejectValue("Drying.selfCooling", m_parameters.selfCooling, "in (0, 1]");
-  }
-  m_parameters.exposure.requireValid("Drying.exposure");
+Drying::Drying(Parameters parameters) { setParameters(std::move(parameters)); }
+
+void Drying::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  const bool isAttached = m_carry.size() > 0;
+  if (isAttached) parameters.exposure.requireSize("Drying.exposure", m_carry.size(), m_parameters.exposure);
+  m_parameters = std::move(parameters);
   m_stillAirRate = stillAirRate(m_parameters);
-}
-
-void Drying::setClimate(double temperature, double relativeHumidity) {
-  requireClimate(temperature, relativeHumidity);
-  m_parameters.temperature = temperature;
-  m_parameters.relativeHumidity = relativeHumidity;
-  m_stillAirRate = stillAirRate(m_parameters);
-}
-
-void Drying::setAir(WindField air) {
-  air.requireValid("Drying.air");
-  m_parameters.air = std::move(air);
-}
-
-void Drying::setExposure(Exposure exposure) {
-  exposure.requireValid("Drying.exposure");
-  if (m_carry.size() > 0) exposure.requireSize("Drying.exposure", m_carry.size());
-  m_parameters.exposure = std::move(exposure);
   m_nothingLeft.restart();
-  m_hasNormals = false;
 }
 
 void Drying::attach(WetCloth& cloth) {

@@ -57,10 +57,9 @@ class WETCLOTH_EXPORT Drying : public Effect {
   explicit Drying(Parameters parameters);
 
   const Parameters& parameters() const { return m_parameters; }
-  /// Each throws std::invalid_argument, and then nothing changes.
-  void setClimate(double temperature, double relativeHumidity);
-  void setAir(WindField air);
-  void setExposure(Exposure exposure);
+  /// Between steps, and all or nothing: throws as the constructor does, or when an exposure has not one value per node,
+  /// and then nothing has changed.
+  void setParameters(Parameters parameters);
 
   const char* name() const override { return "Drying"; }
   Stage stage() const override { return Stage::losses; }

@@ -30,5 +30,9 @@ void Exposure::requireSize(const char* field, std::size_t nodes) const {
   }
 }
 
+void Exposure::requireSize(const char* field, std::size_t nodes, const Exposure& before) const {
+  if (m_perNode.size() != before.m_perNode.size()) requireSize(field, nodes);
+}
+
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

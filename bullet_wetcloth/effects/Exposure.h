@@ -37,6 +37,9 @@ class WETCLOTH_EXPORT Exposure {
   void requireValid(const char* field) const;
   /// Throws std::invalid_argument when an array has not one value per node.
   void requireSize(const char* field, std::size_t nodes) const;
+  /// The same for what takes the place of `before`: an array as long as that one is right, too, since the body may have
+  /// been cut after it was given.
+  void requireSize(const char* field, std::size_t nodes, const Exposure& before) const;
 
  private:
   double m_constant = 0;

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace wetcloth {
@@ -23,6 +24,25 @@ namespace {
 // exactly zero would make Bullet divide by it.
 constexpr btScalar kPowerless = btScalar(1e-12);
 
+void requireValid(const HookeSprings::Parameters& parameters) {
+  requirePositive("HookeSprings.stiffness", parameters.stiffness);
+  requireNotNegative("HookeSprings.bendingStiffness", parameters.bendingStiffness);
+  for (std::size_t k = 0; k < parameters.perLink.size(); ++k) {
+    requireNotNegative("HookeSprings.perLink[" + std::to_string(k) + "]", parameters.perLink[k]);
+  }
+  if (parameters.iterations < 1) rejectValue("HookeSprings.iterations", parameters.iterations, ">= 1");
+}
+
+void requireSize(const HookeSprings::Parameters& parameters, std::size_t links) {
+  if (parameters.perLink.empty() || parameters.perLink.size() == links) return;
+  rejectValue("HookeSprings.perLink.size()", parameters.perLink.size(),
+              "the number of the body's links, " + std::to_string(links));
+}
+
+auto stiffnesses(const HookeSprings::Parameters& parameters) {
+  return std::tie(parameters.stiffness, parameters.bendingStiffness, parameters.perLink);
+}
+
 }  // namespace
 
 btVector3 hookeForce(const btVector3& a, const btVector3& b, double restLength, double stiffness) {
@@ -32,14 +52,20 @@ btVector3 hookeForce(const btVector3& a, const btVector3& b, double restLength, 
   return along * static_cast<btScalar>(stiffness * (length - restLength) / length);
 }
 
-HookeSprings::HookeSprings(Parameters parameters)
-    : m_parameters(std::move(parameters)), m_solver(std::make_unique<SpringSolver>()) {
-  requirePositive("HookeSprings.stiffness", m_parameters.stiffness);
-  requireNotNegative("HookeSprings.bendingStiffness", m_parameters.bendingStiffness);
-  for (std::size_t k = 0; k < m_parameters.perLink.size(); ++k) {
-    requireNotNegative("HookeSprings.perLink[" + std::to_string(k) + "]", m_parameters.perLink[k]);
-  }
-  if (m_parameters.iterations < 1) rejectValue("HookeSprings.iterations", m_parameters.iterations, ">= 1");
+HookeSprings::HookeSprings(Parameters parameters) : m_solver(std::make_unique<SpringSolver>()) {
+  setParameters(std::move(parameters));
+}
+
+void HookeSprings::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  // As many values as before are right after a cut, too.
+  const bool isAttached = !m_springs.empty();
+  if (isAttached && parameters.perLink.size() != m_parameters.perLink.size()) requireSize(parameters, m_springs.size());
+  const bool isOtherStiffness = stiffnesses(parameters) != stiffnesses(m_parameters);
+  m_parameters = std::move(parameters);
+  if (!isAttached || !isOtherStiffness) return;
+  m_stiffnessRevision = kUnscaled;
+  m_solver->reset(m_nodes.size());
 }
 
 HookeSprings::~HookeSprings() = default;
@@ -54,19 +80,15 @@ void HookeSprings::attach(WetCloth& cloth) {
   const HookeSprings* const known = cloth.find<HookeSprings>();
   if (known && known != this) reject("HookeSprings", "the cloth has them already");
   const bool isFirst = !m_powerless;
-  if (isFirst && !m_parameters.perLink.empty() && m_parameters.perLink.size() != links) {
-    rejectValue("HookeSprings.perLink.size()", m_parameters.perLink.size(),
-                "the number of the body's links, " + std::to_string(links));
-  }
+  if (isFirst) requireSize(m_parameters, links);
   disableLinks(cloth);
   m_springs.resize(links);
   for (std::size_t k = 0; k < links; ++k) {
     const btSoftBody::Link& link = body.m_links[static_cast<int>(k)];
     m_springs[k].a = nodeIndex(body, link.m_n[0]);
     m_springs[k].b = nodeIndex(body, link.m_n[1]);
-    m_springs[k].stiffness = stiffnessOf(link, k);
   }
-  m_stiffnessRevision = 0;
+  m_stiffnessRevision = kUnscaled;
   m_nodes.resize(static_cast<std::size_t>(body.m_nodes.size()));
   m_solver->reset(m_nodes.size());
 }

@@ -48,6 +48,9 @@ class WETCLOTH_EXPORT HookeSprings : public Effect {
   ~HookeSprings() override;
 
   const Parameters& parameters() const { return m_parameters; }
+  /// Between steps, and all or nothing: throws as the constructor does, or when `perLink` has not one value per link,
+  /// and then nothing has changed. Other stiffnesses make the next step factor the matrix anew.
+  void setParameters(Parameters parameters);
 
   const char* name() const override { return "HookeSprings"; }
   Stage stage() const override { return Stage::elasticity; }
@@ -62,6 +65,8 @@ class WETCLOTH_EXPORT HookeSprings : public Effect {
   long long factorizations() const;
 
  private:
+  static constexpr unsigned long long kUnscaled = ~0ULL;  // the springs have not seen the links' factors yet
+
   double stiffnessOf(const btSoftBody::Link& link, std::size_t index) const;
   void disableLinks(WetCloth& cloth);
   void scaleStiffness(WetCloth& cloth);
@@ -73,9 +78,9 @@ class WETCLOTH_EXPORT HookeSprings : public Effect {
   std::unique_ptr<SpringSolver> m_solver;  // behind a pointer, so that Eigen stays out of this header
   std::vector<Spring> m_springs;
   std::vector<SpringNode> m_nodes;
-  unsigned long long m_stiffnessRevision = 0;         // of LinkConstants::setStiffness()
-  btSoftBody::Material* m_powerless = nullptr;        // appended to the body, which owns it
-  std::vector<btSoftBody::Material*> m_ownMaterials;  // of each link before us
+  unsigned long long m_stiffnessRevision = kUnscaled;  // of LinkConstants::setStiffness()
+  btSoftBody::Material* m_powerless = nullptr;         // appended to the body, which owns it
+  std::vector<btSoftBody::Material*> m_ownMaterials;   // of each link before us
 };
 
 }  // namespace WETCLOTH_PRECISION

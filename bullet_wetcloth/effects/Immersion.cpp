@@ -16,6 +16,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+void requireValid(const Immersion::Parameters& parameters) {
+  if (parameters.surface) requireValid("Immersion.surface", *parameters.surface);
+}
+
 // Bullet's own comparison looks at the fourth number, too, which means nothing.
 bool isSame(const btVector3& a, const btVector3& b) { return a.x() == b.x() && a.y() == b.y() && a.z() == b.z(); }
 
@@ -30,13 +34,11 @@ double immersionShare(double depth, double dt, double timeConstant) {
   return depth > 0 ? exponentialShare(dt / timeConstant) : 0;
 }
 
-Immersion::Immersion(Parameters parameters) : m_parameters(parameters) {
-  if (m_parameters.surface) requireValid("Immersion.surface", *m_parameters.surface);
-}
+Immersion::Immersion(Parameters parameters) { setParameters(parameters); }
 
-void Immersion::setSurface(const std::optional<WaterSurface>& surface) {
-  if (surface) requireValid("Immersion.surface", *surface);
-  m_parameters.surface = surface;
+void Immersion::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  m_parameters = parameters;  // apply() notices another surface
 }
 
 void Immersion::attach(WetCloth& cloth) {
@@ -61,7 +63,7 @@ void Immersion::noticeSurface(const std::optional<WaterSurface>& surface) {
 
 bool Immersion::isIdle(const WetCloth& cloth, const Step& step) {
   if (m_nothingLeft.holds(cloth.water())) return true;
-  if (!m_steadyState.isReached(cloth, step)) return false;
+  if (!m_steadyState.isReached(cloth.body(), cloth.water(), step.gravity)) return false;
   if (reach(cloth.body()) < m_reachLimit) return true;
   m_steadyState.restart();
   return false;
@@ -92,7 +94,7 @@ void Immersion::soak(WetCloth& cloth, const Step& step) {
   m_nothingLeft.note(water, isFull);
   m_reachLimit = isWet ? kInfinity : reach(cloth.body()) + clearance / 4;
   // An exponential that has slowed down is not yet at its end: what counts is whether anything is left to soak.
-  m_steadyState.note(cloth, step, isSoaking ? water.totalCapacity() : 0);
+  m_steadyState.note(cloth.body(), cloth.water(), step.gravity, step.dt, isSoaking ? water.totalCapacity() : 0);
 }
 
 // Depth of the lowest corner of the body's bounds. They are those of the positions that Bullet predicted for the last

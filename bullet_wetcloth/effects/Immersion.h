@@ -35,8 +35,9 @@ class WETCLOTH_EXPORT Immersion : public Effect {
   explicit Immersion(Parameters parameters);
 
   const Parameters& parameters() const { return m_parameters; }
-  /// None: Bullet's own again. Throws std::invalid_argument, and then nothing changes.
-  void setSurface(const std::optional<WaterSurface>& surface);
+  /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed. A surface of none
+  /// is Bullet's own again, or no water.
+  void setParameters(Parameters parameters);
 
   const char* name() const override { return "Immersion"; }
   Stage stage() const override { return Stage::sources; }

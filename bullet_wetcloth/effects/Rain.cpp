@@ -13,38 +13,22 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-void requireDirection(const btVector3& direction) {
-  requireFinite("Rain.direction", direction);
-  if (directionOf(direction).isZero()) reject("Rain.direction", "must not be of length 0");
-}
-
-// Finite as Bullet's scalar, too.
-void requireSpeed(double speed) {
-  requireNotNegative("Rain.speed", speed);
-  requireFinite("Rain.speed", static_cast<double>(static_cast<btScalar>(speed)));
+void requireValid(const Rain::Parameters& parameters) {
+  requireFinite("Rain.direction", parameters.direction);
+  if (directionOf(parameters.direction).isZero()) reject("Rain.direction", "must not be of length 0");
+  requireNotNegative("Rain.flux", parameters.flux);
+  requireNotNegative("Rain.speed", parameters.speed);
+  requireFinite("Rain.speed", static_cast<double>(static_cast<btScalar>(parameters.speed)));  // as Bullet's scalar, too
 }
 
 }  // namespace
 
-Rain::Rain(Parameters parameters) : m_parameters(parameters) {
-  requireDirection(m_parameters.direction);
-  requireNotNegative("Rain.flux", m_parameters.flux);
-  requireSpeed(m_parameters.speed);
-}
+Rain::Rain(Parameters parameters) { setParameters(parameters); }
 
-void Rain::setDirection(const btVector3& direction) {
-  requireDirection(direction);
-  m_parameters.direction = direction;
-}
-
-void Rain::setFlux(double flux) {
-  requireNotNegative("Rain.flux", flux);
-  m_parameters.flux = flux;
-}
-
-void Rain::setSpeed(double speed) {
-  requireSpeed(speed);
-  m_parameters.speed = speed;
+void Rain::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  if (parameters.selfShelter) m_shelter.resize(m_catcher.positions().size(), m_catcher.triangles().size());
+  m_parameters = parameters;
 }
 
 void Rain::attach(WetCloth& cloth) {

@@ -31,10 +31,8 @@ class WETCLOTH_EXPORT Rain : public Effect {
   explicit Rain(Parameters parameters);
 
   const Parameters& parameters() const { return m_parameters; }
-  /// Each throws std::invalid_argument, and then nothing changes.
-  void setDirection(const btVector3& direction);
-  void setFlux(double flux);
-  void setSpeed(double speed);
+  /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed.
+  void setParameters(Parameters parameters);
 
   const char* name() const override { return "Rain"; }
   Stage stage() const override { return Stage::sources; }

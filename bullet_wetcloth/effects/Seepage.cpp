@@ -22,6 +22,13 @@ constexpr double kEarthGravity = 9.81;  // [m/s^2]
 constexpr double kMostSeepageSubsteps = 64;
 constexpr double kLargestSeepageExponent = 100;
 
+void requireValid(const Seepage::Parameters& parameters) {
+  requireNotNegative("Seepage.speed", parameters.speed);
+  if (!(parameters.exponent >= 1 && parameters.exponent <= kLargestSeepageExponent)) {
+    rejectValue("Seepage.exponent", parameters.exponent, "in [1, 100]");
+  }
+}
+
 // With the nodes' conductivities known.
 double upwindFlow(double conductance, double speed, double first, double second, double drop) {
   return conductance * speed * (drop > 0 ? first : second) * drop;
@@ -41,11 +48,12 @@ double seepageFlow(double conductance, double speed, double exponent, double fir
                     relativeConductivity(secondSaturation, exponent), drop);
 }
 
-Seepage::Seepage(Parameters parameters) : m_parameters(parameters), m_flow(std::make_unique<EdgeFlow>()) {
-  requireNotNegative("Seepage.speed", m_parameters.speed);
-  if (!(m_parameters.exponent >= 1 && m_parameters.exponent <= kLargestSeepageExponent)) {
-    rejectValue("Seepage.exponent", m_parameters.exponent, "in [1, 100]");
-  }
+Seepage::Seepage(Parameters parameters) : m_flow(std::make_unique<EdgeFlow>()) { setParameters(parameters); }
+
+void Seepage::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  m_parameters = parameters;
+  m_steadyState.restart();
 }
 
 Seepage::~Seepage() = default;
@@ -59,14 +67,18 @@ void Seepage::attach(WetCloth& cloth) {
 }
 
 void Seepage::apply(WetCloth& cloth, const Step& step) {
-  if (m_steadyState.isReached(cloth, step)) return;
+  if (m_steadyState.isReached(cloth.body(), cloth.water(), step.gravity)) return;
   m_flow->load(cloth.water());
   measureDepths(cloth, step);
   const double speed = m_parameters.speed * static_cast<double>(step.gravity.length()) / kEarthGravity;
   flow(std::isfinite(speed) ? speed : 0, step.dt);
-  m_flow->commit(cloth, m_fluxes);
+  if (m_flow->hasMoved()) {
+    cloth.joinArrivals();
+    m_flow->commit(cloth.body(), cloth.water(), m_fluxes,
+                   [&](btSoftBody::Node& node, const btVector3& change) { cloth.push(node, change); });
+  }
   m_nodesVisited += static_cast<long long>(m_flow->nodeCount());
-  m_steadyState.note(cloth, step, m_flow->moved());
+  m_steadyState.note(cloth.body(), cloth.water(), step.gravity, step.dt, m_flow->moved());
 }
 
 void Seepage::measureDepths(const WetCloth& cloth, const Step& step) {

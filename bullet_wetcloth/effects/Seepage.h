@@ -45,6 +45,8 @@ class WETCLOTH_EXPORT Seepage : public Effect {
   ~Seepage() override;
 
   const Parameters& parameters() const { return m_parameters; }
+  /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed.
+  void setParameters(Parameters parameters);
 
   const char* name() const override { return "Seepage"; }
   Stage stage() const override { return Stage::transport; }

@@ -30,13 +30,13 @@ void requireValid(const Splash::Cone& cone) {
   requirePositive("Splash.region.reach", cone.reach);
 }
 
-void requireRegion(const Splash::Region& region) {
-  std::visit([](const auto& shape) { requireValid(shape); }, region);
-}
-
-void requireVelocity(const btVector3& velocity) {
-  requireFinite("Splash.velocity", velocity);
-  if (directionOf(velocity).isZero()) reject("Splash.velocity", "must not be of length 0: it tells where to");
+void requireValid(const Splash::Parameters& parameters) {
+  std::visit([](const auto& shape) { requireValid(shape); }, parameters.region);
+  requireFinite("Splash.velocity", parameters.velocity);
+  if (directionOf(parameters.velocity).isZero()) {
+    reject("Splash.velocity", "must not be of length 0: it tells where to");
+  }
+  requireNotNegative("Splash.flux", parameters.flux);
 }
 
 double flowOf(const Splash::Sphere& sphere, double flux) { return kPi * sphere.radius * sphere.radius * flux; }
@@ -54,27 +54,11 @@ double coneFlow(double halfAngle, double flux, double reach) {
   return 4 * kPi * half * half * reach * reach * flux;
 }
 
-Splash::Splash(Parameters parameters) : m_parameters(parameters) {
-  requireRegion(m_parameters.region);
-  requireVelocity(m_parameters.velocity);
-  requireNotNegative("Splash.flux", m_parameters.flux);
-}
+Splash::Splash(Parameters parameters) { setParameters(parameters); }
 
-void Splash::setRegion(const Region& region) {
-  requireRegion(region);
-  m_parameters.region = region;
-  m_steadyState.restart();
-}
-
-void Splash::setVelocity(const btVector3& velocity) {
-  requireVelocity(velocity);
-  m_parameters.velocity = velocity;
-  m_steadyState.restart();
-}
-
-void Splash::setFlux(double flux) {
-  requireNotNegative("Splash.flux", flux);
-  m_parameters.flux = flux;
+void Splash::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  m_parameters = parameters;
   m_steadyState.restart();
 }
 
@@ -85,13 +69,14 @@ void Splash::attach(WetCloth& cloth) {
 
 void Splash::apply(WetCloth& cloth, const Step& step) {
   m_catcher.skip();
-  if (m_parameters.flux == 0 || m_steadyState.isReached(cloth, step)) return;
+  if (m_parameters.flux == 0 || m_steadyState.isReached(cloth.body(), cloth.water(), step.gravity)) return;
   m_catcher.begin(cloth.body());
   std::visit([&](const auto& region) { catchDrops(region, step.dt); }, m_parameters.region);
   m_catcher.deliver(cloth.water(), flow() * step.dt);
   m_nodesVisited += static_cast<long long>(m_catcher.positions().size());
   // Drops that all run off move no water, but go on pushing.
-  m_steadyState.note(cloth, step, caught() > 0 ? cloth.water().totalCapacity() : 0);
+  m_steadyState.note(cloth.body(), cloth.water(), step.gravity, step.dt,
+                     caught() > 0 ? cloth.water().totalCapacity() : 0);
 }
 
 bool Splash::wakes(const WetCloth& /*cloth*/, const Step& /*step*/) const { return caught() > 0; }

@@ -53,10 +53,8 @@ class WETCLOTH_EXPORT Splash : public Effect {
   explicit Splash(Parameters parameters);
 
   const Parameters& parameters() const { return m_parameters; }
-  /// Each throws std::invalid_argument, and then nothing changes.
-  void setRegion(const Region& region);
-  void setVelocity(const btVector3& velocity);
-  void setFlux(double flux);
+  /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed.
+  void setParameters(Parameters parameters);
 
   const char* name() const override { return "Splash"; }
   Stage stage() const override { return Stage::sources; }

@@ -10,7 +10,8 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-void requireStrain(double strain) {
+void requireValid(const Swelling::Parameters& parameters) {
+  const double strain = parameters.saturatedStrain;
   if (!(strain > -0.5 && strain < 0.5)) rejectValue("Swelling.saturatedStrain", strain, "in (-0.5, 0.5)");
 }
 
@@ -23,11 +24,11 @@ void setRestLength(btSoftBody::Link& link, btScalar length) {
 
 double swellingStrain(double saturation, double saturatedStrain) { return saturatedStrain * saturation; }
 
-Swelling::Swelling(Parameters parameters) : m_parameters(parameters) { requireStrain(m_parameters.saturatedStrain); }
+Swelling::Swelling(Parameters parameters) { setParameters(parameters); }
 
-void Swelling::setSaturatedStrain(double strain) {
-  requireStrain(strain);
-  m_parameters.saturatedStrain = strain;
+void Swelling::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  m_parameters = parameters;
   m_isStale = true;
 }
 
@@ -42,7 +43,7 @@ void Swelling::attach(WetCloth& cloth) {
   if (other && other != this) reject("Swelling", "the cloth has one already");
   const std::size_t known = m_lengths.size();
   const bool isFirst = known == 0;
-  m_saturation.reset(cloth);
+  m_saturation.reset(cloth.body(), cloth.water());
   m_lengths.resize(m_saturation.size());
   for (std::size_t k = 0; k < m_lengths.size(); ++k) {
     const btScalar found = body.m_links[static_cast<int>(k)].m_rl;
@@ -76,7 +77,7 @@ void Swelling::apply(WetCloth& cloth, const Step& step) {
     return;
   }
   if (m_lengthsWillBeReset) adoptReset(body);
-  if (!m_saturation.update(cloth) && !m_isStale) return;
+  if (!m_saturation.update(cloth.water()) && !m_isStale) return;
   writeLengths(body);
 }
 

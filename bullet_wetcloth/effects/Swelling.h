@@ -38,8 +38,8 @@ class WETCLOTH_EXPORT Swelling : public Effect {
   explicit Swelling(Parameters parameters);
 
   const Parameters& parameters() const { return m_parameters; }
-  /// Throws std::invalid_argument, and then nothing changes.
-  void setSaturatedStrain(double strain);
+  /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed.
+  void setParameters(Parameters parameters);
 
   const char* name() const override { return "Swelling"; }
   Stage stage() const override { return Stage::material; }

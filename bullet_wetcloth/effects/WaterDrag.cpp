@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
@@ -17,6 +18,18 @@ inline namespace WETCLOTH_PRECISION {
 namespace {
 
 constexpr double kHeldWaterDensity = 1000;  // [kg/m^3]
+
+void requireValid(const WaterDrag::Parameters& parameters) {
+  if (parameters.surface) requireValid("WaterDrag.surface", *parameters.surface);
+  requireNotNegative("WaterDrag.dragCoefficient", parameters.dragCoefficient);
+  requireNotNegative("WaterDrag.skinFriction", parameters.skinFriction);
+  requirePositive("WaterDrag.fibreDensity", parameters.fibreDensity);
+}
+
+// What the force depends on besides the water.
+auto lawOf(const WaterDrag::Parameters& parameters) {
+  return std::make_tuple(parameters.dragCoefficient, parameters.skinFriction, parameters.fibreDensity);
+}
 
 btVector3 centreOf(const btSoftBody& body) { return (body.m_bounds[0] + body.m_bounds[1]) / 2; }
 btVector3 sizeOf(const btSoftBody& body) { return body.m_bounds[1] - body.m_bounds[0]; }
@@ -58,16 +71,12 @@ double sinkingSpeed(double arealDensity, double fibreDensity, double waterDensit
   return std::copysign(std::sqrt(2 * std::fabs(weight) / (waterDensity * dragCoefficient)), weight);
 }
 
-WaterDrag::WaterDrag(const Parameters& parameters) : m_parameters(parameters) {
-  if (m_parameters.surface) requireValid("WaterDrag.surface", *m_parameters.surface);
-  requireNotNegative("WaterDrag.dragCoefficient", m_parameters.dragCoefficient);
-  requireNotNegative("WaterDrag.skinFriction", m_parameters.skinFriction);
-  requirePositive("WaterDrag.fibreDensity", m_parameters.fibreDensity);
-}
+WaterDrag::WaterDrag(Parameters parameters) { setParameters(parameters); }
 
-void WaterDrag::setSurface(const WaterSurface& surface) {
-  requireValid("WaterDrag.surface", surface);
-  m_parameters.surface = surface;
+void WaterDrag::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  if (lawOf(parameters) != lawOf(m_parameters)) m_surface.reset();  // as if the cloth had felt no water so far
+  m_parameters = parameters;
 }
 
 void WaterDrag::attach(WetCloth& cloth) {

@@ -49,11 +49,12 @@ class WETCLOTH_EXPORT WaterDrag : public Effect {
   };
 
   /// Throws std::invalid_argument naming the field and the value.
-  explicit WaterDrag(const Parameters& parameters);
+  explicit WaterDrag(Parameters parameters);
 
   const Parameters& parameters() const { return m_parameters; }
-  /// Throws std::invalid_argument, and then nothing changes.
-  void setSurface(const WaterSurface& surface);
+  /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed. A surface of none
+  /// is Bullet's own again, or no water.
+  void setParameters(Parameters parameters);
 
   const char* name() const override { return "WaterDrag"; }
   Stage stage() const override { return Stage::forces; }
@@ -63,7 +64,7 @@ class WETCLOTH_EXPORT WaterDrag : public Effect {
   void apply(WetCloth& cloth, const Step& step) override;
   /// When, since the last apply(), the water has reached the body or left it; and for a body in it when the level has
   /// moved by a thousandth of the body's size, its slope by 1e-3, its velocity by more than a tenth, or 0.01 m/s, its
-  /// density by 1 %.
+  /// density by 1 %; and when the other parameters have been changed.
   bool wakes(const WetCloth& cloth, const Step& step) const override;
   void transferState(StateArchive& archive) override;
 

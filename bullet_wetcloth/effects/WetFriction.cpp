@@ -55,12 +55,12 @@ void WetFriction::setParameters(Parameters parameters) {
 }
 
 void WetFriction::attach(WetCloth& cloth) {
-  const std::string noRigid = whyNoRigidContacts(cloth);
+  const std::string noRigid = whyNoRigidContacts(cloth.body(), cloth.isInDeformableWorld());
   const std::string noFaces =
       cloth.isInDeformableWorld()
           ? "the deformable world finds contacts of two soft bodies after its solve and applies "
             "their friction at once, out of reach"
-          : whyNoFaceContacts(cloth);
+          : whyNoFaceContacts(cloth.body(), cloth.isInDeformableWorld());
   if (!noRigid.empty() && !noFaces.empty()) {
     reject("WetFriction", "Bullet lists no contacts of this body: with rigid bodies, because " + noRigid +
                               "; with soft bodies, because " + noFaces);
@@ -69,7 +69,8 @@ void WetFriction::attach(WetCloth& cloth) {
 }
 
 void WetFriction::apply(WetCloth& cloth, const Step&) {
-  RigidContacts(cloth).visit([&](const RigidContact& contact) { changeRigid(cloth, contact); });
+  RigidContacts(cloth.body(), cloth.world().world(), cloth.isInDeformableWorld())
+      .visit([&](const RigidContact& contact) { changeRigid(cloth, contact); });
   if (!m_hasFaceContacts) return;
   const btAlignedObjectArray<btSoftBody*>& bodies = cloth.world().softBodies();
   for (int i = 0; i < bodies.size(); ++i) {

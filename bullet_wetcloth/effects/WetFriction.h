@@ -39,7 +39,7 @@ class WETCLOTH_EXPORT WetFriction : public Effect {
   explicit WetFriction(Parameters parameters);
 
   const Parameters& parameters() const { return m_parameters; }
-  /// Throws std::invalid_argument, and then nothing changes.
+  /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed.
   void setParameters(Parameters parameters);
 
   /// The factor at a saturation.

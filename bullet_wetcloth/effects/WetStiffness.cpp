@@ -19,9 +19,16 @@ void requireFactor(const std::string& field, double value) {
   if (!(value >= 0.001 && value <= 1000)) rejectValue(field, value, "in [0.001, 1000]");
 }
 
-void requireDamping(double dry, double wet) {
-  requireNotNegative("WetStiffness.dryDamping", dry);
-  requireNotNegative("WetStiffness.wetDamping", wet);
+void requireValid(const WetStiffness::Parameters& parameters) {
+  requireFactor("WetStiffness.wetStretch", parameters.wetStretch);
+  requireFactor("WetStiffness.wetBending", parameters.wetBending);
+  requireNotNegative("WetStiffness.dryDamping", parameters.dryDamping);
+  requireNotNegative("WetStiffness.wetDamping", parameters.wetDamping);
+}
+
+void giveBackLinks(WetCloth& cloth) {
+  cloth.linkConstants().setStiffness({});
+  cloth.linkConstants().refresh();
 }
 
 }  // namespace
@@ -36,17 +43,24 @@ btVector3 dampingImpulse(const btVector3& ab, const btVector3& velocity, double 
   return ab * static_cast<btScalar>(-share * static_cast<double>(velocity.dot(ab)) / (squared * inverseMasses));
 }
 
-WetStiffness::WetStiffness(Parameters parameters) : m_parameters(parameters) {
-  requireFactor("WetStiffness.wetStretch", m_parameters.wetStretch);
-  requireFactor("WetStiffness.wetBending", m_parameters.wetBending);
-  requireDamping(m_parameters.dryDamping, m_parameters.wetDamping);
+WetStiffness::WetStiffness(Parameters parameters) { setParameters(parameters); }
+
+void WetStiffness::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  if (m_cloth) requireScalable(*m_cloth, parameters);
+  m_factors.resize(scales(parameters) ? m_saturation.size() : 0);
+  if (m_cloth && scales() && !scales(parameters)) giveBackLinks(*m_cloth);
+  m_parameters = parameters;
+  m_factorsAreStale = true;
+  m_sharesDt = 0;
 }
 
-void WetStiffness::setDamping(double dry, double wet) {
-  requireDamping(dry, wet);
-  m_parameters.dryDamping = dry;
-  m_parameters.wetDamping = wet;
-  m_sharesDt = 0;
+void WetStiffness::requireScalable(const WetCloth& cloth, const Parameters& parameters) const {
+  if (scales(parameters) && cloth.isInDeformableWorld() && !cloth.find<HookeSprings>()) {
+    reject("WetStiffness",
+           "in the deformable world Bullet's springs have one stiffness for all links and read none per link; add "
+           "HookeSprings first, or set wetStretch and wetBending to 1");
+  }
 }
 
 void WetStiffness::attach(WetCloth& cloth) {
@@ -54,12 +68,9 @@ void WetStiffness::attach(WetCloth& cloth) {
   if (links == 0) rejectValue("WetStiffness: body.m_links.size()", 0, "at least 1: stiffness is that of links");
   const WetStiffness* const other = cloth.find<WetStiffness>();
   if (other && other != this) reject("WetStiffness", "the cloth has one already");
-  if (scales() && cloth.isInDeformableWorld() && !cloth.find<HookeSprings>()) {
-    reject("WetStiffness",
-           "in the deformable world Bullet's springs have one stiffness for all links and read none per link; add "
-           "HookeSprings first, or set wetStretch and wetBending to 1");
-  }
-  m_saturation.reset(cloth);
+  requireScalable(cloth, m_parameters);
+  m_cloth = &cloth;
+  m_saturation.reset(cloth.body(), cloth.water());
   m_shares.resize(m_saturation.size());
   m_factors.resize(scales() ? m_saturation.size() : 0);
   m_sharesDt = 0;
@@ -67,9 +78,8 @@ void WetStiffness::attach(WetCloth& cloth) {
 }
 
 void WetStiffness::detach(WetCloth& cloth) {
-  if (!scales()) return;
-  cloth.linkConstants().setStiffness({});
-  cloth.linkConstants().refresh();
+  if (scales()) giveBackLinks(cloth);
+  m_cloth = nullptr;
 }
 
 void WetStiffness::apply(WetCloth& cloth, const Step& step) {
@@ -77,7 +87,7 @@ void WetStiffness::apply(WetCloth& cloth, const Step& step) {
   const btSoftBody& body = cloth.body();
   const bool constantsWereReset = m_constantsWillBeReset && !body.m_bUpdateRtCst;
   m_constantsWillBeReset = body.m_bUpdateRtCst;
-  const bool changed = m_saturation.update(cloth);
+  const bool changed = m_saturation.update(cloth.water());
   if (scales() && (changed || m_factorsAreStale)) {
     scaleLinks(cloth);
   } else if (scales() && constantsWereReset) {

@@ -57,8 +57,9 @@ class WETCLOTH_EXPORT WetStiffness : public Effect {
   explicit WetStiffness(Parameters parameters);
 
   const Parameters& parameters() const { return m_parameters; }
-  /// Throws std::invalid_argument, and then nothing changes.
-  void setDamping(double dry, double wet);
+  /// Between steps, and all or nothing: throws as the constructor does, or attach() of a factor that is not 1, and then
+  /// nothing has changed. Links whose factors become 1 have the constants again that Bullet would compute.
+  void setParameters(Parameters parameters);
 
   const char* name() const override { return "WetStiffness"; }
   Stage stage() const override { return Stage::material; }
@@ -74,13 +75,16 @@ class WETCLOTH_EXPORT WetStiffness : public Effect {
   long long linksVisited() const { return m_linksVisited; }
 
  private:
-  bool scales() const { return m_parameters.wetStretch != 1 || m_parameters.wetBending != 1; }
+  bool scales() const { return scales(m_parameters); }
+  static bool scales(const Parameters& parameters) { return parameters.wetStretch != 1 || parameters.wetBending != 1; }
   bool damps() const { return m_parameters.dryDamping > 0 || m_parameters.wetDamping > 0; }
+  void requireScalable(const WetCloth& cloth, const Parameters& parameters) const;
   void scaleLinks(WetCloth& cloth);
   void updateShares(double dt);
   void damp(WetCloth& cloth);
 
   Parameters m_parameters;
+  WetCloth* m_cloth = nullptr;
   LinkSaturation m_saturation;
   std::vector<btScalar> m_factors;  // on the stiffness of each link; empty when none is scaled
   std::vector<double> m_shares;     // of the relative velocity along each link, lost in a step

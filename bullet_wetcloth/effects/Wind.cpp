@@ -14,12 +14,28 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <tuple>
 #include <utility>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 namespace {
+
+void requireValid(const Wind::Parameters& parameters) {
+  parameters.velocity.requireValid("Wind.velocity");
+  requireNotNegative("Wind.airDensity", parameters.airDensity);
+  requireNotNegative("Wind.dragCoefficient", parameters.dragCoefficient);
+  requireNotNegative("Wind.skinFriction", parameters.skinFriction);
+  requireNotNegative("Wind.linearDrag", parameters.linearDrag);
+  requireNotNegative("Wind.paperForce", parameters.paperForce);
+}
+
+// What the force depends on besides the wind.
+auto lawOf(const Wind::Parameters& p) {
+  return std::make_tuple(p.law, p.airDensity, p.dragCoefficient, p.skinFriction, p.linearDrag, p.paperForce,
+                         p.integration);
+}
 
 // Vectors in the packed states have their axes in the order z, x, y.
 btVector3 vectorOf(const btScalar (&turned)[4]) { return btVector3(turned[1], turned[2], turned[0]); }
@@ -81,18 +97,12 @@ btVector3 linearWindForce(const btVector3& a, const btVector3& b, const btVector
   return forceOnTriangle(flatTriangle(a, b, c), wind - velocity, {static_cast<btScalar>(linearDrag), 0, 0, 0});
 }
 
-Wind::Wind(Parameters parameters) : m_parameters(std::move(parameters)) {
-  m_parameters.velocity.requireValid("Wind.velocity");
-  requireNotNegative("Wind.airDensity", m_parameters.airDensity);
-  requireNotNegative("Wind.dragCoefficient", m_parameters.dragCoefficient);
-  requireNotNegative("Wind.skinFriction", m_parameters.skinFriction);
-  requireNotNegative("Wind.linearDrag", m_parameters.linearDrag);
-  requireNotNegative("Wind.paperForce", m_parameters.paperForce);
-}
+Wind::Wind(Parameters parameters) { setParameters(std::move(parameters)); }
 
-void Wind::setVelocity(WindField velocity) {
-  velocity.requireValid("Wind.velocity");
-  m_parameters.velocity = std::move(velocity);
+void Wind::setParameters(Parameters parameters) {
+  requireValid(parameters);
+  if (lawOf(parameters) != lawOf(m_parameters)) m_windAtCentre.setZero();  // as if the cloth had felt no wind so far
+  m_parameters = std::move(parameters);
 }
 
 void Wind::attach(WetCloth& cloth) {

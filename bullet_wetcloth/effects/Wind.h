@@ -65,15 +65,16 @@ class WETCLOTH_EXPORT Wind : public Effect {
   explicit Wind(Parameters parameters);
 
   const Parameters& parameters() const { return m_parameters; }
-  /// Throws std::invalid_argument when a constant is not finite, and then nothing changes.
-  void setVelocity(WindField velocity);
+  /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed.
+  void setParameters(Parameters parameters);
 
   const char* name() const override { return "Wind"; }
   Stage stage() const override { return Stage::forces; }
   /// Throws std::invalid_argument when the body has no faces.
   void attach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
-  /// When the air at the body's centre has changed by more than a tenth, or 0.1 m/s, since the last apply().
+  /// When the air at the body's centre has changed by more than a tenth, or 0.1 m/s, since the last apply(); and in a
+  /// wind of more than 0.1 m/s when other parameters than its velocity have.
   bool wakes(const WetCloth& cloth, const Step& step) const override;
   void transferState(StateArchive& archive) override;
 
@@ -107,7 +108,7 @@ class WETCLOTH_EXPORT Wind : public Effect {
   Parameters m_parameters;
   std::vector<NodeState> m_nodes;
   std::vector<btScalar> m_drag;                 // force per relative speed, over all triangles of a node [kg/s]
-  std::vector<btScalar> m_nodeAreas;            // at rest [m^2]
+  std::vector<btScalar> m_nodeAreas;            // when the effect was added, or the body last cut [m^2]
   std::vector<std::array<int, 3>> m_triangles;  // node indices
   btVector3 m_totalForce = btVector3(0, 0, 0);
   btVector3 m_windAtCentre = btVector3(0, 0, 0);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/numerics/EdgeFlow.h"
 
-#include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -69,16 +68,9 @@ double EdgeFlow::moved() const {
   return moved;
 }
 
-void EdgeFlow::commit(WetCloth& cloth, const std::vector<double>& fluxes) {
-  if (m_held == m_before) return;
-  cloth.joinArrivals();
-  if (!moveAlike(cloth.body())) carryMomentum(cloth, fluxes);
-  cloth.water().redistribute(m_held);
-}
-
-void EdgeFlow::carryMomentum(WetCloth& cloth, const std::vector<double>& fluxes) {
-  btSoftBody& body = cloth.body();
-  const Water& water = cloth.water();
+// False: all nodes move alike, and water that goes from one to another changes no velocity.
+bool EdgeFlow::carryMomentum(const btSoftBody& body, const Water& water, const std::vector<double>& fluxes) {
+  if (moveAlike(body)) return false;
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
     const btSoftBody::Node& node = body.m_nodes[static_cast<int>(i)];
     for (int c = 0; c < 3; ++c) m_nodes[i].velocity[toSize(c)] = static_cast<double>(node.m_v[c]);
@@ -86,13 +78,15 @@ void EdgeFlow::carryMomentum(WetCloth& cloth, const std::vector<double>& fluxes)
     m_nodes[i].isFixed = node.m_im == 0;
   }
   m_momentum.apply(m_edges, fluxes, m_nodes);
-  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
-    btSoftBody::Node& node = body.m_nodes[static_cast<int>(i)];
-    const auto change = [&](int c) {
-      return static_cast<btScalar>(m_nodes[i].velocity[toSize(c)] - static_cast<double>(node.m_v[c]));
-    };
-    cloth.push(node, btVector3(change(0), change(1), change(2)));
-  }
+  return true;
+}
+
+btVector3 EdgeFlow::velocityChange(const btSoftBody& body, int node) const {
+  const auto change = [&](int c) {
+    return static_cast<btScalar>(m_nodes[toSize(node)].velocity[toSize(c)] -
+                                 static_cast<double>(body.m_nodes[node].m_v[c]));
+  };
+  return btVector3(change(0), change(1), change(2));
 }
 
 }  // namespace WETCLOTH_PRECISION

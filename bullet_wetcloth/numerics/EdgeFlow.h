@@ -5,6 +5,10 @@
 #include "bullet_wetcloth/mesh/IntrinsicDelaunay.h"
 #include "bullet_wetcloth/numerics/FluxLimiter.h"
 #include "bullet_wetcloth/numerics/MomentumFlow.h"
+#include "bullet_wetcloth/water/Water.h"
+
+#include <BulletSoftBody/btSoftBody.h>
+#include <LinearMath/btVector3.h>
 
 #include <cstddef>
 #include <vector>
@@ -13,8 +17,6 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 class StateArchive;
-class Water;
-class WetCloth;
 
 /// Water that flows along the edges of a cloth: what the effects of the stage `transport` have in common.
 ///
@@ -43,16 +45,25 @@ class EdgeFlow {
   /// Water that has left its node since load() [kg].
   double moved() const;
 
-  /// Moves the cloth's water, and gives the nodes the velocity that comes with it. `fluxes` is the sum of those that
-  /// went through limit() since load(). What arrived in this step joins its nodes first. Does nothing when nothing
-  /// moved.
-  void commit(WetCloth& cloth, const std::vector<double>& fluxes);
+  bool hasMoved() const { return m_held != m_before; }
+
+  /// Moves the cloth's water, and gives the nodes the velocity that comes with it, by push(node, change of velocity).
+  /// `fluxes` is the sum of those that went through limit() since load(). What arrived in this step must have joined
+  /// its nodes: WetCloth::joinArrivals().
+  template <class Push>
+  void commit(btSoftBody& body, Water& water, const std::vector<double>& fluxes, Push push) {
+    if (carryMomentum(body, water, fluxes)) {
+      for (int i = 0; i < static_cast<int>(m_nodes.size()); ++i) push(body.m_nodes[i], velocityChange(body, i));
+    }
+    water.redistribute(m_held);
+  }
 
   void transferState(StateArchive& archive);
 
  private:
   void weighEdges();
-  void carryMomentum(WetCloth& cloth, const std::vector<double>& fluxes);
+  bool carryMomentum(const btSoftBody& body, const Water& water, const std::vector<double>& fluxes);
+  btVector3 velocityChange(const btSoftBody& body, int node) const;
 
   std::vector<WeightedEdge> m_edges;
   std::vector<double> m_weights;

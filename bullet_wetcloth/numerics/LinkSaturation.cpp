@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/numerics/LinkSaturation.h"
 
-#include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/state/StateArchive.h"
+#include "bullet_wetcloth/water/Water.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,39 +17,38 @@ double saturationOf(const Water& water, std::size_t node) { return std::min(wate
 
 }  // namespace
 
-void LinkSaturation::reset(const WetCloth& cloth) {
-  const btSoftBody& body = cloth.body();
+void LinkSaturation::reset(const btSoftBody& body, const Water& water) {
   m_links.resize(static_cast<std::size_t>(body.m_links.size()));
   for (std::size_t k = 0; k < m_links.size(); ++k) {
     const btSoftBody::Link& link = body.m_links[static_cast<int>(k)];
     m_links[k] = {toSize(nodeIndex(body, link.m_n[0])), toSize(nodeIndex(body, link.m_n[1]))};
   }
-  m_saturation.resize(cloth.water().size());
-  take(cloth);
-  m_revision = cloth.water().revision();
+  m_saturation.resize(water.size());
+  take(water);
+  m_revision = water.revision();
 }
 
-bool LinkSaturation::update(const WetCloth& cloth) {
-  const bool rests = cloth.water().revision() == m_revision;
+bool LinkSaturation::update(const Water& water) {
+  const bool rests = water.revision() == m_revision;
   if (rests && !m_lags) return false;
-  m_revision = cloth.water().revision();
-  const double change = largestChange(cloth);
+  m_revision = water.revision();
+  const double change = largestChange(water);
   m_lags = change > 0;
   if (change <= (rests ? 0 : kStep)) return false;
-  take(cloth);
+  take(water);
   return true;
 }
 
-double LinkSaturation::largestChange(const WetCloth& cloth) const {
+double LinkSaturation::largestChange(const Water& water) const {
   double largest = 0;
   for (std::size_t i = 0; i < m_saturation.size(); ++i) {
-    largest = std::max(largest, std::fabs(saturationOf(cloth.water(), i) - m_saturation[i]));
+    largest = std::max(largest, std::fabs(saturationOf(water, i) - m_saturation[i]));
   }
   return largest;
 }
 
-void LinkSaturation::take(const WetCloth& cloth) {
-  for (std::size_t i = 0; i < m_saturation.size(); ++i) m_saturation[i] = saturationOf(cloth.water(), i);
+void LinkSaturation::take(const Water& water) {
+  for (std::size_t i = 0; i < m_saturation.size(); ++i) m_saturation[i] = saturationOf(water, i);
   m_lags = false;
 }
 

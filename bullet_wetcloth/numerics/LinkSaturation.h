@@ -3,6 +3,8 @@
 
 #include "bullet_wetcloth/Precision.h"
 
+#include <BulletSoftBody/btSoftBody.h>
+
 #include <cstddef>
 #include <vector>
 
@@ -10,7 +12,7 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 class StateArchive;
-class WetCloth;
+class Water;
 
 /// The saturation of each link of a cloth: the mean of its two nodes', each in [0, 1]; a node that was filled above its
 /// capacity counts as saturated. A member of effects whose law depends on it.
@@ -22,10 +24,10 @@ class WETCLOTH_EXPORT LinkSaturation {
   static constexpr double kStep = 1e-3;
 
   /// Takes over the body's links, and the water as it is. O(links).
-  void reset(const WetCloth& cloth);
+  void reset(const btSoftBody& body, const Water& water);
 
   /// Whether a value changed. Visits no link while none does, and no node while no water moves.
-  bool update(const WetCloth& cloth);
+  bool update(const Water& water);
 
   void transferState(StateArchive& archive);
 
@@ -40,8 +42,8 @@ class WETCLOTH_EXPORT LinkSaturation {
     std::size_t b;
   };
 
-  double largestChange(const WetCloth& cloth) const;
-  void take(const WetCloth& cloth);
+  double largestChange(const Water& water) const;
+  void take(const Water& water);
 
   std::vector<Ends> m_links;
   std::vector<double> m_saturation;  // of each node, as last taken

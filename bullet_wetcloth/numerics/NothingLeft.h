@@ -9,7 +9,7 @@ inline namespace WETCLOTH_PRECISION {
 
 /// Tells an effect that has found nothing left to do at any node to idle until water moves, in whatever way. A member
 /// of the effect. Where nothing is ever quite done, as in an exponential, SteadyState tells.
-class NothingLeft {
+class WETCLOTH_EXPORT NothingLeft {
  public:
   /// A parameter or the body changed.
   void restart() { m_isTrue = false; }

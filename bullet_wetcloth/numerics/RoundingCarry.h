@@ -12,7 +12,7 @@ inline namespace WETCLOTH_PRECISION {
 /// Many small portions of water would be lost to rounding against the large amount that a node holds: what was due at
 /// a node but its rounded water could not show yet is carried to the node's next portion. A member of what moves water
 /// into nodes, or out of them.
-class RoundingCarry {
+class WETCLOTH_EXPORT RoundingCarry {
  public:
   /// Nothing carried, for this many nodes. Allocates.
   void reset(std::size_t nodes) { m_carry.assign(nodes, 0); }

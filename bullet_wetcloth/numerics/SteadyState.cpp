@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/numerics/SteadyState.h"
 
-#include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/state/StateArchive.h"
+#include "bullet_wetcloth/water/Water.h"
 
 #include <algorithm>
 
@@ -25,44 +25,42 @@ void SteadyState::restart() {
   m_quietSteps = 0;
 }
 
-bool SteadyState::isReached(const WetCloth& cloth, const Step& step) {
+bool SteadyState::isReached(const btSoftBody& body, const Water& water, const btVector3& gravity) {
   if (!m_isReached) return false;
-  const Water& water = cloth.water();
   const bool isDisturbed =
       water.moved() - m_movedBefore > kDisturbed * m_capacity || water.totalCapacity() != m_capacity;
-  if (isDisturbed || (m_inputs == DependsOn::waterAndShape && shapeChanged(cloth, step))) restart();
+  if (isDisturbed || (m_inputs == DependsOn::waterAndShape && shapeChanged(body, gravity))) restart();
   return m_isReached;
 }
 
-void SteadyState::note(const WetCloth& cloth, const Step& step, double moved) {
-  m_shape.resize(m_inputs == DependsOn::waterAndShape ? cloth.water().size() : 0);
-  const double capacity = cloth.water().totalCapacity();
-  const bool isQuiet = moved <= kQuiet * capacity * std::min(step.dt, 1.0);
+void SteadyState::note(const btSoftBody& body, const Water& water, const btVector3& gravity, double dt, double moved) {
+  m_shape.resize(m_inputs == DependsOn::waterAndShape ? water.size() : 0);
+  const double capacity = water.totalCapacity();
+  const bool isQuiet = moved <= kQuiet * capacity * std::min(dt, 1.0);
   m_quietSteps = isQuiet ? m_quietSteps + 1 : 0;
   if (m_quietSteps < kPatience) return;
   m_isReached = true;
   m_capacity = capacity;
-  m_movedBefore = cloth.water().moved();
-  if (m_inputs == DependsOn::waterAndShape) rememberShape(cloth, step);
+  m_movedBefore = water.moved();
+  if (m_inputs == DependsOn::waterAndShape) rememberShape(body, gravity);
 }
 
-bool SteadyState::shapeChanged(const WetCloth& cloth, const Step& step) {
-  if (!(step.gravity == m_gravity) || m_shape.size() != cloth.water().size()) return true;
+bool SteadyState::shapeChanged(const btSoftBody& body, const btVector3& gravity) {
+  if (!(gravity == m_gravity) || m_shape.size() != static_cast<std::size_t>(body.m_nodes.size())) return true;
   const std::size_t share = (m_shape.size() + kLooks - 1) / kLooks;
   for (std::size_t k = 0; k < share; ++k) {
     m_nextNode = m_nextNode + 1 < m_shape.size() ? m_nextNode + 1 : 0;
-    const btVector3& now = cloth.body().m_nodes[static_cast<int>(m_nextNode)].m_x;
+    const btVector3& now = body.m_nodes[static_cast<int>(m_nextNode)].m_x;
     if ((now - m_shape[m_nextNode]).length2() > m_tolerance2) return true;
   }
   return false;
 }
 
-void SteadyState::rememberShape(const WetCloth& cloth, const Step& step) {
-  const btSoftBody& body = cloth.body();
+void SteadyState::rememberShape(const btSoftBody& body, const btVector3& gravity) {
   for (std::size_t i = 0; i < m_shape.size(); ++i) m_shape[i] = body.m_nodes[static_cast<int>(i)].m_x;
   const btScalar tolerance = kMoved * (body.m_bounds[1] - body.m_bounds[0]).length();
   m_tolerance2 = tolerance * tolerance;
-  m_gravity = step.gravity;
+  m_gravity = gravity;
 }
 
 void SteadyState::transferState(StateArchive& archive) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "bullet_wetcloth/Effect.h"
 #include "bullet_wetcloth/Precision.h"
 
+#include <BulletSoftBody/btSoftBody.h>
 #include <LinearMath/btVector3.h>
 
 #include <cstddef>
@@ -11,6 +11,9 @@
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
+
+class StateArchive;
+class Water;
 
 /// Tells an effect that moves water when it may idle, and when it must go on: a member of the effect.
 ///
@@ -27,16 +30,17 @@ class WETCLOTH_EXPORT SteadyState {
   void restart();
 
   /// Whether the effect may leave this step out. Looks at a 32nd of the nodes at most.
-  bool isReached(const WetCloth& cloth, const Step& step);
+  bool isReached(const btSoftBody& body, const Water& water, const btVector3& gravity);
 
-  /// After a step that was not left out, with what it moved [kg]. May allocate in the first call after restart().
-  void note(const WetCloth& cloth, const Step& step, double moved);
+  /// After a step of `dt` [s] that was not left out, with what it moved [kg]. May allocate in the first call after
+  /// restart().
+  void note(const btSoftBody& body, const Water& water, const btVector3& gravity, double dt, double moved);
 
   void transferState(StateArchive& archive);
 
  private:
-  bool shapeChanged(const WetCloth& cloth, const Step& step);
-  void rememberShape(const WetCloth& cloth, const Step& step);
+  bool shapeChanged(const btSoftBody& body, const btVector3& gravity);
+  void rememberShape(const btSoftBody& body, const btVector3& gravity);
 
   DependsOn m_inputs;
   int m_quietSteps = 0;

@@ -16,7 +16,7 @@ class StateArchive;
 /// the two inverse masses over the link's stiffness [1/kg], by which the position-based worlds correct its length.
 ///
 /// The stiffness is that of the link's material times a factor of the link's own, 1 at first.
-class LinkConstants {
+class WETCLOTH_EXPORT LinkConstants {
  public:
   explicit LinkConstants(btSoftBody& body) : m_body(body) {}
 

@@ -87,7 +87,8 @@ Outcome soakByLaw(wetcloth::Absorption::Law law, double place, double dt) {
   wetcloth::Absorption::Parameters parameters;
   parameters.law = law;
   auto& absorption = specimen.cloth().add<wetcloth::Absorption>(parameters);
-  return soak(specimen, dt, [&](double time) { absorption.setExposure(exposureAt(time + place * dt)); });
+  return soak(specimen, dt,
+              [&](double time) { adjust(absorption, [&](auto& p) { p.exposure = exposureAt(time + place * dt); }); });
 }
 
 Outcome soakByRungeKutta(double dt) {

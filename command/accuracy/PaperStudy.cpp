@@ -13,7 +13,7 @@
 namespace accuracy {
 namespace {
 
-constexpr double dt = 1. / 60;
+constexpr double paperStep = 1. / 60;
 
 // --- absorption: dry to 10 s in water ----------------------------------------------------------------------------
 
@@ -27,21 +27,21 @@ Outcome soak(wetcloth::Absorption::Law law) {
   parameters.law = law;
   specimen.cloth().add<wetcloth::Absorption>(parameters);
   const double start = command::processorTime();
-  for (int i = 0; i < std::lround(soakDuration / dt); ++i) specimen.substepOfOurs(dt);
+  for (int i = 0; i < std::lround(soakDuration / paperStep); ++i) specimen.substepOfOurs(paperStep);
   const double seconds = command::processorTime() - start;
   const double exact = 1 - std::exp(-soakDuration / settings.fabric.timeConstant);
   return {{std::fabs(specimen.cloth().saturation(0) / exact - 1)}, seconds};
 }
 
-/// Eq. 1 as it is printed, m += t dm/dt with the time since the start instead of the step: on one number, in no
+/// Eq. 1 as it is printed, m += t dm/paperStep with the time since the start instead of the step: on one number, in no
 /// effect, since nobody should have it.
 Outcome soakAsPrinted() {
   const wetcloth::Fabric cotton = wetcloth::Fabric::cotton();
   double saturation = 0;
   const double start = command::processorTime();
-  for (int i = 0; i < std::lround(soakDuration / dt); ++i) {
-    const double rate = std::exp(-i * dt / cotton.timeConstant) / cotton.timeConstant;
-    saturation = std::min(1.0, saturation + i * dt * rate);
+  for (int i = 0; i < std::lround(soakDuration / paperStep); ++i) {
+    const double rate = std::exp(-i * paperStep / cotton.timeConstant) / cotton.timeConstant;
+    saturation = std::min(1.0, saturation + i * paperStep * rate);
   }
   const double seconds = command::processorTime() - start;
   const double exact = 1 - std::exp(-soakDuration / cotton.timeConstant);
@@ -86,7 +86,7 @@ Outcome soakInFall(bool conservesMomentum) {
   specimen.cloth().add<wetcloth::Absorption>(parameters);
   const double dry = specimen.cloth().totalMass();
   const double start = command::processorTime();
-  for (int i = 0; i < std::lround(duration / dt); ++i) specimen.substep(dt);
+  for (int i = 0; i < std::lround(duration / paperStep); ++i) specimen.substep(paperStep);
   const double seconds = command::processorTime() - start;
   double momentum = 0;
   for (int i = 0; i < specimen.cloth().nodeCount(); ++i) {
@@ -117,7 +117,7 @@ std::vector<Study> studySoaking(const Effort& effort, const TellProgress& tell) 
   plan.timed = "our part of the step at 1/60 s; of Eq. 1 as printed one number";
   plan.measures = {{"paper_absorption", "The paper's absorption, 10 s in water", "error of the water taken up",
                     "closed form, Eq. 2"}};
-  const double steps = soakDuration / dt;
+  const double steps = soakDuration / paperStep;
   add(plan, "paper", "Eq. 1 by forward Euler", 256, steps, soakDuration, [] { return soak(Law::forwardEuler); });
   add(plan, "paper", "Eq. 1 as printed", 1, steps, soakDuration, soakAsPrinted);
   plan.settings.back().isCompared = false;

@@ -24,9 +24,10 @@ FallingDrops::FallingDrops(const Scene& scene)
 }
 
 void FallingDrops::follow(wetcloth::Dripping& dripping) {
-  dripping.setOnDrip([this](const wetcloth::Drip& drip) {
+  const auto take = [this](const wetcloth::Drip& drip) {
     m_falls.push_back({drip.time, drip.position, drip.velocity, radiusOf(drip.mass, m_waterDensity)});
-  });
+  };
+  adjust(dripping, [&](auto& p) { p.onDrip = take; });
 }
 
 void FallingDrops::forgetLanded(double time) {

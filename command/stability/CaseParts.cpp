@@ -78,7 +78,7 @@ Weather::Weather(CaseScene& scene, btSoftBody& body, wetcloth::WetCloth* cloth, 
 
 void Weather::blow(const btVector3& air) {
   m_air = air;
-  if (m_wind != nullptr) m_wind->setVelocity(air);
+  if (m_wind != nullptr) adjust(*m_wind, [&](auto& p) { p.velocity = air; });
 }
 
 void Weather::beforeStep() {

@@ -25,8 +25,10 @@ class Laundry {
     m_rain = &m_cloth->add<wetcloth::Absorption>(rain);
     m_cloth->add<wetcloth::Diffusion>();
     m_dripping = &m_cloth->add<wetcloth::Dripping>();
-    m_drying = &m_cloth->add<wetcloth::Drying>();
-    m_drying->setClimate(35, 0.2);
+    wetcloth::Drying::Parameters summer;
+    summer.temperature = 35;
+    summer.relativeHumidity = 0.2;
+    m_drying = &m_cloth->add<wetcloth::Drying>(summer);
     m_wind = &m_cloth->add<wetcloth::Wind>({btVector3(0, 0, 0)});
   }
 
@@ -44,11 +46,11 @@ class Laundry {
   void turnTo(Phase phase) {
     m_phase = phase;
     if (m_cloth == nullptr) return;
-    m_rain->setExposure(phase == Phase::rain ? 1.0 : 0.0);
-    m_dripping->setHoldingSaturation(phase == Phase::shake ? 0.3 : 0.6);
+    adjust(*m_rain, [&](auto& p) { p.exposure = phase == Phase::rain ? 1.0 : 0.0; });
+    adjust(*m_dripping, [&](auto& p) { p.holdingSaturation = phase == Phase::shake ? 0.3 : 0.6; });
     const btVector3 air = phase == Phase::dry ? btVector3(2, 0, 6) : btVector3(0, 0, 0);
-    m_wind->setVelocity(air);
-    m_drying->setAir(air);
+    adjust(*m_wind, [&](auto& p) { p.velocity = air; });
+    adjust(*m_drying, [&](auto& p) { p.air = air; });
   }
   void shake(double offset) {
     for (int i = 0; i < m_body.m_nodes.size(); ++i) {

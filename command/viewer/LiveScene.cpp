@@ -191,14 +191,16 @@ double LiveScene::bulletMicroseconds() const {
 
 void LiveScene::pullLevers() {
   if (m_levers.wind) {
-    forEach<Wind>(*m_wet, [&](Wind& wind, WetCloth&) { wind.setVelocity(*m_levers.wind); });
+    forEach<Wind>(*m_wet, [&](Wind& wind, WetCloth&) { adjust(wind, [&](auto& p) { p.velocity = *m_levers.wind; }); });
   }
   if (m_levers.exposure) {
-    forEach<Absorption>(*m_wet, [&](Absorption& absorption, WetCloth&) { absorption.setExposure(*m_levers.exposure); });
+    forEach<Absorption>(*m_wet, [&](Absorption& absorption, WetCloth&) {
+      adjust(absorption, [&](auto& p) { p.exposure = *m_levers.exposure; });
+    });
   }
   forEach<Rain>(*m_wet, [&](Rain& rain, WetCloth&) {
-    if (m_levers.rainFlux) rain.setFlux(*m_levers.rainFlux);
-    if (m_levers.rainDirection) rain.setDirection(*m_levers.rainDirection);
+    if (m_levers.rainFlux) adjust(rain, [&](auto& p) { p.flux = *m_levers.rainFlux; });
+    if (m_levers.rainDirection) adjust(rain, [&](auto& p) { p.direction = *m_levers.rainDirection; });
   });
 }
 
@@ -252,7 +254,9 @@ bool LiveScene::exposureVaries() const {
 }
 
 void LiveScene::setRainFlux(double flux) {
-  Rain({}).setFlux(flux);
+  Rain::Parameters parameters;
+  parameters.flux = flux;
+  static_cast<void>(Rain(parameters));
   m_levers.rainFlux = flux;
   pullLevers();
 }
@@ -264,7 +268,9 @@ double LiveScene::rainFlux() const {
 }
 
 void LiveScene::setRainDirection(const btVector3& direction) {
-  Rain({}).setDirection(direction);
+  Rain::Parameters parameters;
+  parameters.direction = direction;
+  static_cast<void>(Rain(parameters));
   m_levers.rainDirection = direction;
   pullLevers();
 }

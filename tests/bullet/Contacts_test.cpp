@@ -19,6 +19,10 @@ using wetcloth::FaceContacts;
 using wetcloth::RigidContact;
 using wetcloth::RigidContacts;
 
+RigidContacts contactsOf(wetcloth::WetCloth& cloth) {
+  return RigidContacts(cloth.body(), cloth.world().world(), cloth.isInDeformableWorld());
+}
+
 class ContactsInWorld : public InEveryWorld {};
 
 TEST_P(ContactsInWorld, ARigidContactIsToldAlikeInEveryWorld) {
@@ -28,7 +32,7 @@ TEST_P(ContactsInWorld, ARigidContactIsToldAlikeInEveryWorld) {
   addCall(
       scene.cloth(),
       [&](wetcloth::WetCloth& cloth, const wetcloth::Step&) {
-        RigidContacts(cloth).visit([&](const RigidContact& contact) {
+        contactsOf(cloth).visit([&](const RigidContact& contact) {
           EXPECT_EQ(contact.point.count, 1);
           ++found[std::size_t(contact.point.nodes[0])];
           EXPECT_EQ(contact.object, &floor.body());
@@ -47,7 +51,7 @@ TEST_P(ContactsInWorld, WhatHasLeftTheWorldIsPassedOver) {
   ClothScene scene(GetParam(), kEarthGravity, Lying().builder(GetParam()));
   const auto count = [&] {
     int contacts = 0;
-    RigidContacts(scene.cloth()).visit([&](const RigidContact&) { ++contacts; });
+    contactsOf(scene.cloth()).visit([&](const RigidContact&) { ++contacts; });
     return contacts;
   };
   {
@@ -67,7 +71,7 @@ TEST_P(ContactsInWorld, NodesThatMovedInMemoryArePassedOver) {
   const btSoftBody::Node* const before = &body.m_nodes[0];
   ASSERT_TRUE(body.cutLink(body.m_faces[0].m_n[0], body.m_faces[0].m_n[1], btScalar(0.5)));
   ASSERT_NE(before, &body.m_nodes[0]);
-  RigidContacts(scene.cloth()).visit([&](const RigidContact& contact) {
+  contactsOf(scene.cloth()).visit([&](const RigidContact& contact) {
     EXPECT_LT(contact.point.nodes[0], body.m_nodes.size());
     EXPECT_GE(contact.point.nodes[0], 0);
   });
@@ -115,7 +119,7 @@ TEST(ContactsOfTriangles, AreToldWithTheirFace) {
   RigidBody floor(scene.bullet(), box(5, 0.5, 5), 0, {0, -0.5, 0});
   scene.step(1);
   int found = 0;
-  RigidContacts(scene.cloth()).visit([&](const RigidContact& contact) {
+  contactsOf(scene.cloth()).visit([&](const RigidContact& contact) {
     ++found;
     EXPECT_EQ(contact.point.count, 3);
     for (int k = 0; k < 3; ++k) {
@@ -123,13 +127,6 @@ TEST(ContactsOfTriangles, AreToldWithTheirFace) {
     }
   });
   EXPECT_EQ(found, 18);
-}
-
-TEST(ContactArea, IsAThirdOfTheTrianglesOrTheMassOverTheArealDensity) {
-  ClothScene scene(WorldKind::softRigid, kEarthGravity, Lying().builder(WorldKind::softRigid));
-  EXPECT_NEAR(wetcloth::contactArea(scene.cloth(), 5), 0.01, 1e-8);  // an inner node of 0.1 m x 0.1 m
-  ClothScene rope(WorldKind::softRigid, kEarthGravity, hangingRope(3, 0.1, 0.003));
-  EXPECT_NEAR(wetcloth::contactArea(rope.cloth(), 2), 0.003 / 0.150, 1e-8);
 }
 
 }  // namespace

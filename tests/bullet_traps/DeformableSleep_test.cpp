@@ -52,7 +52,7 @@ TEST_P(DeformableSleep, RisingWindWakesTheCloth) {
   wetcloth::Wind& wind = wet.add(scene.body()).add<wetcloth::Wind>({btVector3(0, 0, 0)});
   scene.bullet().step(kUntilAsleep);
   ASSERT_EQ(scene.body().getActivationState(), ISLAND_SLEEPING);
-  wind.setVelocity(btVector3(0, 0, 5));
+  adjust(wind, [](auto& p) { p.velocity = btVector3(0, 0, 5); });
   scene.bullet().step(60);
   EXPECT_TRUE(scene.body().isActive());
   EXPECT_GT(meanVelocity(scene.body()).z(), 1);
@@ -65,7 +65,7 @@ TEST_P(DeformableSleep, WaterThatLandsIsTakenUpInSleep) {
   wetcloth::Absorption& soak = cloth.add<wetcloth::Absorption>({0.0});
   scene.bullet().step(kUntilAsleep);
   ASSERT_EQ(scene.body().getActivationState(), ISLAND_SLEEPING);
-  soak.setExposure(1.0);
+  adjust(soak, [](auto& p) { p.exposure = 1.0; });
   scene.bullet().step(480);
   EXPECT_NEAR(cloth.meanSaturation(), 1 - std::exp(-1), 1e-5);  // 480 float steps add up to 2 s
 }

@@ -108,7 +108,7 @@ TEST(AbsorptionExposure, NodesBeyondTheArrayAreDry) {
 TEST(AbsorptionExposure, SetExposureTakesEffectInTheNextStep) {
   Bath bath(1.0);
   bath.scene.preTick(2);
-  bath.effect.setExposure(0.5);
+  adjust(bath.effect, [](auto& p) { p.exposure = 0.5; });
   bath.scene.preTick(2);
   EXPECT_NEAR(bath.scene.cloth().saturation(7), soaked(3, 1), 1e-14);  // 2 + 0.5 x 2
 }
@@ -116,12 +116,14 @@ TEST(AbsorptionExposure, SetExposureTakesEffectInTheNextStep) {
 TEST(AbsorptionExposure, BadExposureIsRefusedAndNothingChanges) {
   Bath bath(1.0);
   for (double bad : {-0.01, 1.01, kNaN, std::numeric_limits<double>::infinity()}) {
-    EXPECT_NE(rejection([&] { bath.effect.setExposure(bad); }).find("exposure"), std::string::npos) << bad;
+    EXPECT_NE(rejection([&] { adjust(bath.effect, [&](auto& p) { p.exposure = bad; }); }).find("exposure"),
+              std::string::npos)
+        << bad;
     EXPECT_NE(rejection([&] { Absorption{Bath::parametersOf(bad)}; }).find("exposure"), std::string::npos) << bad;
   }
   std::vector<double> withOneBad(25, 0.5);
   withOneBad[17] = 1.5;
-  const std::string message = rejection([&] { bath.effect.setExposure(withOneBad); });
+  const std::string message = rejection([&] { adjust(bath.effect, [&](auto& p) { p.exposure = withOneBad; }); });
   EXPECT_NE(message.find("17"), std::string::npos) << message;
   EXPECT_NE(message.find("1.5"), std::string::npos) << message;
   bath.scene.preTick(2);
@@ -200,7 +202,7 @@ TEST(AbsorptionIdles, UntilWaterLeaves) {
 TEST(AbsorptionIdles, UntilTheExposureChanges) {
   Bath bath(0.0);
   for (int i = 0; i < 10; ++i) bath.scene.preTick(1);
-  bath.effect.setExposure(1.0);
+  adjust(bath.effect, [](auto& p) { p.exposure = 1.0; });
   bath.scene.preTick(2);
   EXPECT_NEAR(bath.scene.cloth().saturation(0), soaked(2, 1), 1e-14);
 }

@@ -87,8 +87,8 @@ TEST_P(ContactWettingInWorld, ANodeFillsWhileItTouches) {
   addCall(
       cloth.scene.cloth(),
       [&](wetcloth::WetCloth& wetCloth, const wetcloth::Step&) {
-        wetcloth::RigidContacts(wetCloth).visit(
-            [&](const wetcloth::RigidContact& contact) { ++touched[std::size_t(contact.point.nodes[0])]; });
+        wetcloth::RigidContacts(wetCloth.body(), wetCloth.world().world(), wetCloth.isInDeformableWorld())
+            .visit([&](const wetcloth::RigidContact& contact) { ++touched[std::size_t(contact.point.nodes[0])]; });
       },
       wetcloth::Stage::sources);
   cloth.scene.step(240);
@@ -271,7 +271,7 @@ TEST(ContactWettingParameters, AreChecked) {
   EXPECT_EQ(why([](auto& p) { p.wetBodies.push_back(p.wetBodies[0]); }),
             "ContactWetting.wetBodies[1].body: is there twice");
   ContactWetting wetting({});
-  EXPECT_THROW(wetting.setRate(-1), std::invalid_argument);
+  EXPECT_THROW(adjust(wetting, [](auto& p) { p.rate = -1; }), std::invalid_argument);
   EXPECT_THROW(wetting.setFilm(object, -1), std::invalid_argument);
   EXPECT_EQ(wetting.film(object), 0);
   wetting.setFilm(object, 3);

@@ -62,12 +62,12 @@ TEST(DrippingDrops, MayBeTakenBySomebodyElseMidRun) {
   const std::size_t before = hung.drips.size();
   EXPECT_GT(before, 0u);
   long long taken = 0;
-  hung.effect->setOnDrip([&](const Drip&) { ++taken; });
+  adjust(*hung.effect, [&](auto& p) { p.onDrip = [&](const Drip&) { ++taken; }; });
   for (int i = 0; i < 100; ++i) hung.scene.preTick(1.0 / 240);
   EXPECT_EQ(hung.drips.size(), before);
   EXPECT_GT(taken, 0);
   EXPECT_EQ(hung.effect->drops(), static_cast<long long>(before) + taken);
-  hung.effect->setOnDrip({});
+  adjust(*hung.effect, [](auto& p) { p.onDrip = {}; });
   const long long drops = hung.effect->drops();
   for (int i = 0; i < 100; ++i) hung.scene.preTick(1.0 / 240);
   EXPECT_GT(hung.effect->drops(), drops);  // it drips on, told to nobody
@@ -220,10 +220,11 @@ TEST(DrippingIdles, UntilTheClothIsTurned) {
 TEST(DrippingIdles, UntilItsHoldingCapacityChanges) {
   Hung hung;
   for (int i = 0; i < 200; ++i) hung.scene.preTick(1);
-  hung.effect->setHoldingSaturation(0.2);
+  adjust(*hung.effect, [](auto& p) { p.holdingSaturation = 0.2; });
   hung.scene.preTick(3);
   EXPECT_NEAR(hung.scene.cloth().saturation(2), 0.2 + 0.4 * std::exp(-1), 1e-12);
-  EXPECT_NE(rejection([&] { hung.effect->setHoldingSaturation(1.25); }).find("1.25"), std::string::npos);
+  EXPECT_NE(rejection([&] { adjust(*hung.effect, [](auto& p) { p.holdingSaturation = 1.25; }); }).find("1.25"),
+            std::string::npos);
   EXPECT_EQ(hung.effect->parameters().holdingSaturation, 0.2);
 }
 

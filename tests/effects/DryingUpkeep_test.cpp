@@ -75,7 +75,7 @@ TEST(DryingIdles, InAirThatIsSaturatedAndWithoutExposure) {
   Line under(covered);
   for (int i = 0; i < 10; ++i) under.scene.preTick(1);
   EXPECT_EQ(under.effect.nodesVisited(), 9);
-  under.effect.setExposure(1.0);
+  adjust(under.effect, [](auto& p) { p.exposure = 1.0; });
   under.scene.preTick(1);
   EXPECT_GT(under.scene.cloth().ledger().evaporated, 0);
 }
@@ -141,11 +141,29 @@ TEST(DryingBadInput, IsNamed) {
 
 TEST(DryingBadInput, OfASetterChangesNothing) {
   Line line;
-  EXPECT_EQ(rejection([&] { line.effect.setClimate(99, 0.1); }).find("Drying.temperature = 99"), 0u);
-  EXPECT_EQ(rejection([&] { line.effect.setClimate(30, 7); }).find("Drying.relativeHumidity = 7"), 0u);
-  EXPECT_EQ(rejection([&] { line.effect.setAir(btVector3(0, 0, btScalar(kInfinity))); }).find("Drying.air.z"), 0u);
-  EXPECT_EQ(rejection([&] { line.effect.setExposure(-1.0); }).find("Drying.exposure = -1"), 0u);
-  EXPECT_NE(rejection([&] { line.effect.setExposure(std::vector<double>(8, 1.0)); }).find("Drying.exposure.size() = 8"),
+  EXPECT_EQ(rejection([&] {
+              adjust(line.effect, [](auto& p) {
+                p.temperature = 99;
+                p.relativeHumidity = 0.1;
+              });
+            }).find("Drying.temperature = 99"),
+            0u);
+  EXPECT_EQ(rejection([&] {
+              adjust(line.effect, [](auto& p) {
+                p.temperature = 30;
+                p.relativeHumidity = 7;
+              });
+            }).find("Drying.relativeHumidity = 7"),
+            0u);
+  EXPECT_EQ(rejection([&] {
+              adjust(line.effect, [](auto& p) { p.air = btVector3(0, 0, btScalar(kInfinity)); });
+            }).find("Drying.air.z"),
+            0u);
+  EXPECT_EQ(rejection([&] { adjust(line.effect, [](auto& p) { p.exposure = -1.0; }); }).find("Drying.exposure = -1"),
+            0u);
+  EXPECT_NE(rejection([&] {
+              adjust(line.effect, [](auto& p) { p.exposure = std::vector<double>(8, 1.0); });
+            }).find("Drying.exposure.size() = 8"),
             std::string::npos);
   line.scene.preTick(100);
   Line untouched;

@@ -130,23 +130,30 @@ double driedIn100Seconds(Line& line) {
 
 TEST(Drying, FollowsTheClimate) {
   Line line;
-  line.effect.setClimate(35, 0.25);
+  adjust(line.effect, [](auto& p) {
+    p.temperature = 35;
+    p.relativeHumidity = 0.25;
+  });
   EXPECT_NEAR(driedIn100Seconds(line) / (100 * rate(0, 0.25, 35)), 1, kGeometry);
-  line.effect.setClimate(20, 1);
+  adjust(line.effect, [](auto& p) {
+    p.temperature = 20;
+    p.relativeHumidity = 1;
+  });
   EXPECT_EQ(driedIn100Seconds(line), 0);
 }
 
 TEST(Drying, InWindIsFasterAsTheFormulaSays) {
   Line line;
-  line.effect.setAir(btVector3(3, 0, 4));
+  adjust(line.effect, [](auto& p) { p.air = btVector3(3, 0, 4); });
   EXPECT_NEAR(driedIn100Seconds(line) / (100 * rate(5)), 1, kGeometry);
-  line.effect.setAir([](const btVector3&, double time) { return btVector3(btScalar(time / 50), 0, 0); });
+  adjust(line.effect,
+         [](auto& p) { p.air = [](const btVector3&, double time) { return btVector3(btScalar(time / 50), 0, 0); }; });
   EXPECT_NEAR(driedIn100Seconds(line) / (100 * rate(2)), 1, kGeometry) << "at the start of the step, 100 s";
 }
 
 TEST(Drying, CountsTheAirsSpeedRelativeToTheCloth) {
   Line line;
-  line.effect.setAir(btVector3(3, 0, 0));
+  adjust(line.effect, [](auto& p) { p.air = btVector3(3, 0, 0); });
   setVelocity(line.scene.body(), btVector3(3, 0, 0));
   EXPECT_NEAR(driedIn100Seconds(line) / (100 * rate(0)), 1, kGeometry);
   setVelocity(line.scene.body(), btVector3(-1, 0, 0));
@@ -162,15 +169,17 @@ TEST(Drying, OfOneSideIsHalfAsFast) {
 
 TEST(Drying, FollowsTheExposure) {
   Line line;
-  line.effect.setExposure(0.25);
+  adjust(line.effect, [](auto& p) { p.exposure = 0.25; });
   EXPECT_NEAR(driedIn100Seconds(line) / (25 * rate()), 1, kGeometry);
   std::vector<double> perNode(9, 0.0);
   perNode[4] = 0.5;
-  line.effect.setExposure(perNode);
+  adjust(line.effect, [&](auto& p) { p.exposure = perNode; });
   const double other = line.held(0);
   EXPECT_NEAR(driedIn100Seconds(line) / (50 * rate()), 1, kGeometry);
   EXPECT_EQ(line.held(0), other);
-  line.effect.setExposure([](const btVector3&, const btVector3& normal) { return std::fabs(double(normal.y())); });
+  adjust(line.effect, [](auto& p) {
+    p.exposure = [](const btVector3&, const btVector3& normal) { return std::fabs(double(normal.y())); };
+  });
   EXPECT_NEAR(driedIn100Seconds(line) / (100 * rate()), 1, 1e-5);  // a normal is of length 1 to some 1e-6 in float32
 }
 

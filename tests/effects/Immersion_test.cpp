@@ -182,10 +182,10 @@ TEST(ImmersionSurface, OfBulletMayChangeAtAnyTime) {
 TEST(ImmersionSurface, MayBeSetAndGivenUp) {
   Bath bath({levelAt(-1)});
   for (int i = 0; i < 100; ++i) bath.scene.preTick(1);
-  bath.effect.setSurface(levelAt(1));
+  adjust(bath.effect, [&](auto& p) { p.surface = levelAt(1); });
   bath.scene.preTick(1);
   EXPECT_NEAR(bath.saturation(0), soaked(1), 1e-14);
-  bath.effect.setSurface(std::nullopt);  // and Bullet has none
+  adjust(bath.effect, [](auto& p) { p.surface = std::nullopt; });  // and Bullet has none
   bath.scene.preTick(1);
   EXPECT_NEAR(bath.saturation(0), soaked(1), 1e-14);
 }
@@ -214,7 +214,9 @@ TEST(ImmersionBadInput, NamesTheFieldAndChangesNothing) {
   Bath bath({levelAt(1)});
   const auto refused = [&](const WaterSurface& surface, const char* field) {
     EXPECT_NE(rejection([&] { Immersion{{surface}}; }).find(field), std::string::npos) << field;
-    EXPECT_NE(rejection([&] { bath.effect.setSurface(surface); }).find(field), std::string::npos) << field;
+    EXPECT_NE(rejection([&] { adjust(bath.effect, [&](auto& p) { p.surface = surface; }); }).find(field),
+              std::string::npos)
+        << field;
   };
   for (const double bad : {kNaN, kInfinity, -kInfinity}) {
     WaterSurface surface;

@@ -64,7 +64,7 @@ TEST_P(RainInWorld, KeepsABodyAwakeThatItsDropsWouldCarryOff) {
   scene.body().setActivationState(ISLAND_SLEEPING);
   scene.bullet().step(1);
   EXPECT_TRUE(scene.body().isActive());
-  rain.setFlux(0);
+  adjust(rain, [](auto& p) { p.flux = 0; });
   scene.body().setActivationState(ISLAND_SLEEPING);
   wet.preTick(btScalar(0.01));
   EXPECT_FALSE(scene.body().isActive());

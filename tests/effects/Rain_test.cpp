@@ -205,11 +205,11 @@ TEST(RainIdles, WhileTheFluxIsZero) {
   Shower shower(falling(btVector3(0, -1, 0), 0));
   for (int i = 0; i < 10; ++i) shower.scene.preTick(1);
   EXPECT_EQ(shower.effect.nodesVisited(), 0);
-  shower.effect.setFlux(1e-3);
+  adjust(shower.effect, [](auto& p) { p.flux = 1e-3; });
   shower.scene.preTick(1);
   EXPECT_EQ(shower.effect.nodesVisited(), 25);
   EXPECT_NEAR(shower.ledger().absorbed, 1e-3, 1e-3 * kGeometry);
-  shower.effect.setFlux(0);
+  adjust(shower.effect, [](auto& p) { p.flux = 0; });
   shower.scene.preTick(1);
   EXPECT_EQ(shower.effect.nodesVisited(), 25);
   EXPECT_EQ(shower.effect.caught(), 0);
@@ -226,11 +226,11 @@ TEST(RainIdles, AFullClothTouchesNoMasses) {
 
 TEST(RainSetters, TakeEffectInTheNextStep) {
   Shower shower(falling(btVector3(0, -1, 0)));
-  shower.effect.setDirection(btVector3(1, 0, 0));  // along the cloth
+  adjust(shower.effect, [](auto& p) { p.direction = btVector3(1, 0, 0); });  // along the cloth
   shower.scene.preTick(1);
   EXPECT_NEAR(shower.ledger().absorbed, 0, 1e-9);
-  shower.effect.setDirection(btVector3(0, 7, 0));
-  shower.effect.setSpeed(0);
+  adjust(shower.effect, [](auto& p) { p.direction = btVector3(0, 7, 0); });
+  adjust(shower.effect, [](auto& p) { p.speed = 0; });
   shower.scene.preTick(1);
   EXPECT_NEAR(shower.ledger().absorbed, 2.8e-3, 2.8e-3 * kGeometry);
   EXPECT_EQ(shower.scene.node(12).m_v.y(), 0);
@@ -243,19 +243,25 @@ TEST(RainBadInput, NamesTheFieldAndChangesNothing) {
   };
   for (const double bad : {-1.0, kNaN, kInfinity}) {
     refused(falling(btVector3(0, -1, 0), bad), "Rain.flux = ");
-    EXPECT_NE(rejection([&] { shower.effect.setFlux(bad); }).find("Rain.flux"), std::string::npos);
+    EXPECT_NE(rejection([&] { adjust(shower.effect, [&](auto& p) { p.flux = bad; }); }).find("Rain.flux"),
+              std::string::npos);
     Rain::Parameters parameters;
     parameters.speed = bad;
     refused(parameters, "Rain.speed = ");
-    EXPECT_NE(rejection([&] { shower.effect.setSpeed(bad); }).find("Rain.speed"), std::string::npos);
+    EXPECT_NE(rejection([&] { adjust(shower.effect, [&](auto& p) { p.speed = bad; }); }).find("Rain.speed"),
+              std::string::npos);
   }
   for (const double bad : {kNaN, kInfinity}) {
     const btVector3 direction(0, 0, btScalar(bad));
     refused(falling(direction), "Rain.direction.z");
-    EXPECT_NE(rejection([&] { shower.effect.setDirection(direction); }).find("Rain.direction.z"), std::string::npos);
+    EXPECT_NE(
+        rejection([&] { adjust(shower.effect, [&](auto& p) { p.direction = direction; }); }).find("Rain.direction.z"),
+        std::string::npos);
   }
   refused(falling(btVector3(0, 0, 0)), "Rain.direction");
-  EXPECT_NE(rejection([&] { shower.effect.setDirection(btVector3(0, 0, 0)); }).find("Rain.direction"),
+  EXPECT_NE(rejection([&] {
+              adjust(shower.effect, [](auto& p) { p.direction = btVector3(0, 0, 0); });
+            }).find("Rain.direction"),
             std::string::npos);
   EXPECT_EQ(rejection([&] { Rain{falling(btVector3(0, btScalar(-1e-30), 0))}; }), "") << "of any length";
   shower.scene.preTick(1);

@@ -106,12 +106,12 @@ TEST_P(SoakSoftenShrink, HangingRopeThereAndBack) {
   expectRope(0);
   const Links before = linksOf(scene.body());
 
-  soak.setExposure(1.0);
+  adjust(soak, [](auto& p) { p.exposure = 1.0; });
   settle(scene, 1600);  // 67 time constants
   ASSERT_NEAR(cloth.meanSaturation(), 1, 1e-12);
   expectRope(1);
 
-  soak.setExposure(0.0);
+  adjust(soak, [](auto& p) { p.exposure = 0.0; });
   dries = true;
   settle(scene, 1600);
   ASSERT_EQ(cloth.ledger().held, 0);
@@ -145,12 +145,14 @@ TEST_P(SoakSoftenShrink, PatchThereAndBack) {
   const std::vector<btScalar> start = stateOf(scene.body());
   const Links before = linksOf(scene.body());
 
-  soak.setExposure([](const btVector3& x, const btVector3&) { return double(x.x()) < 0.5 ? 1.0 : 0.2; });
+  adjust(soak, [](auto& p) {
+    p.exposure = [](const btVector3& x, const btVector3&) { return double(x.x()) < 0.5 ? 1.0 : 0.2; };
+  });
   settle(scene, 1200);
   EXPECT_GT(cloth.meanSaturation(), 0.9);
   EXPECT_GT(largestDifference(stateOf(scene.body()), start), 0.01);
 
-  soak.setExposure(0.0);
+  adjust(soak, [](auto& p) { p.exposure = 0.0; });
   dries = true;
   settle(scene, 1600);
   ASSERT_EQ(cloth.ledger().held, 0);

@@ -71,10 +71,18 @@ TEST(SplashBadInput, NamesTheField) {
 
 TEST(SplashBadInput, ASetterThatThrowsChangesNothing) {
   Splash effect{Splash::Parameters()};
-  EXPECT_THROW(effect.setRegion(Splash::Sphere{btVector3(0, 0, 0), -1}), std::invalid_argument);
-  EXPECT_THROW(effect.setRegion(Splash::Cone{btVector3(0, 0, 0), 2, 1}), std::invalid_argument);
-  EXPECT_THROW(effect.setVelocity(btVector3(0, 0, 0)), std::invalid_argument);
-  EXPECT_THROW(effect.setFlux(-1), std::invalid_argument);
+  EXPECT_THROW(adjust(effect,
+                      [](auto& p) {
+                        p.region = Splash::Sphere{btVector3(0, 0, 0), -1};
+                      }),
+               std::invalid_argument);
+  EXPECT_THROW(adjust(effect,
+                      [](auto& p) {
+                        p.region = Splash::Cone{btVector3(0, 0, 0), 2, 1};
+                      }),
+               std::invalid_argument);
+  EXPECT_THROW(adjust(effect, [](auto& p) { p.velocity = btVector3(0, 0, 0); }), std::invalid_argument);
+  EXPECT_THROW(adjust(effect, [](auto& p) { p.flux = -1; }), std::invalid_argument);
   EXPECT_EQ(std::get<Splash::Sphere>(effect.parameters().region).radius, 0.1);
   EXPECT_EQ(effect.parameters().velocity.y(), -5);
   EXPECT_EQ(effect.parameters().flux, 1);
@@ -154,7 +162,7 @@ TEST_P(SplashInWorld, KeepsABodyAwakeThatItsDropsWouldCarryOff) {
   scene.body().setActivationState(ISLAND_SLEEPING);
   scene.bullet().step(1);
   EXPECT_TRUE(scene.body().isActive());
-  splash.setRegion(Splash::Sphere{btVector3(50, 0, 0), 1});
+  adjust(splash, [](auto& p) { p.region = Splash::Sphere{btVector3(50, 0, 0), 1}; });
   scene.body().setActivationState(ISLAND_SLEEPING);
   wet.preTick(btScalar(0.01));
   EXPECT_FALSE(scene.body().isActive());

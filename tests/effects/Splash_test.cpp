@@ -112,7 +112,7 @@ TEST(SplashSphere, ASlantedStreamIsCaughtByTheProjection) {
 // A square much larger than the stream has but few centroids in it, or many layers would catch it again and again.
 TEST(SplashSphere, NoMoreIsCaughtThanTheStreamCarries) {
   Yard yard(sphere(btVector3(0, 0, 0), 1), 2);
-  yard.effect.setRegion(Splash::Sphere{yard.centroid(0), 0.1});
+  adjust(yard.effect, [&](auto& p) { p.region = Splash::Sphere{yard.centroid(0), 0.1}; });
   yard.scene.preTick(1);
   EXPECT_NEAR(yard.ledger().absorbed, 0.1 * kPi * 0.01, 1e-8);
   EXPECT_NEAR(yard.effect.caught(), 0.1 * kPi * 0.01, 1e-8);
@@ -161,7 +161,7 @@ TEST(SplashCone, AtItsMouthGivesNoMoreThanItsFlow) {
     Yard yard(hose(height, 1.0, 1), 4);
     Splash::Cone cone = std::get<Splash::Cone>(yard.effect.parameters().region);
     cone.apex = yard.centroid(7) + btVector3(0, btScalar(height), 0);
-    yard.effect.setRegion(cone);
+    adjust(yard.effect, [&](auto& p) { p.region = cone; });
     yard.scene.preTick(1);
     const double flow = wetcloth::coneFlow(1.0, 0.1, 1);
     EXPECT_TRUE(std::isfinite(yard.ledger().absorbed));
@@ -225,7 +225,7 @@ TEST(SplashIdles, BesideTheClothUntilItIsMovedThere) {
   const long long visited = yard.effect.nodesVisited();
   for (int i = 0; i < 100; ++i) yard.scene.preTick(0.01);
   EXPECT_EQ(yard.effect.nodesVisited(), visited);
-  yard.effect.setRegion(Splash::Sphere{btVector3(0, 0, 0), 1});
+  adjust(yard.effect, [](auto& p) { p.region = Splash::Sphere{btVector3(0, 0, 0), 1}; });
   yard.scene.preTick(0.01);
   EXPECT_EQ(yard.effect.nodesVisited(), visited + 25);
   EXPECT_NEAR(yard.ledger().absorbed, 0.1 * 0.01, 1e-9);
@@ -251,8 +251,8 @@ TEST(SplashIdles, WithoutFlux) {
   Yard yard(sphere(btVector3(0, 0, 0), 1, 0));
   yard.scene.preTick(1);
   EXPECT_EQ(yard.effect.nodesVisited(), 0);
-  yard.effect.setFlux(0.1);
-  yard.effect.setVelocity(btVector3(0, 2, 0));
+  adjust(yard.effect, [](auto& p) { p.flux = 0.1; });
+  adjust(yard.effect, [](auto& p) { p.velocity = btVector3(0, 2, 0); });
   yard.scene.preTick(1);
   EXPECT_NEAR(yard.ledger().absorbed, 0.1, 1e-6);
   EXPECT_GT(yard.scene.node(12).m_v.y(), 0);

@@ -49,7 +49,7 @@ TEST(SwellingInput, ABadStrainIsNamed) {
   for (double bad : {-0.5, 0.5, 7.0, std::numeric_limits<double>::quiet_NaN(), HUGE_VAL}) {
     EXPECT_EQ(rejection([&] { Swelling({bad}); }).find("Swelling.saturatedStrain = "), 0u) << bad;
     Swelling effect({0.1});
-    EXPECT_NE(rejection([&] { effect.setSaturatedStrain(bad); }), "") << bad;
+    EXPECT_NE(rejection([&] { adjust(effect, [&](auto& p) { p.saturatedStrain = bad; }); }), "") << bad;
     EXPECT_EQ(effect.parameters().saturatedStrain, 0.1);
   }
 }
@@ -124,10 +124,10 @@ TEST_P(SwellingLengths, FollowAStrainThatIsSetMidRun) {
   Swelling& effect = scene.cloth().add<Swelling>({-0.1});
   scene.cloth().setSaturation(1);
   scene.step(2);
-  effect.setSaturatedStrain(0.05);
+  adjust(effect, [](auto& p) { p.saturatedStrain = 0.05; });
   scene.step(1);
   EXPECT_NEAR(double(scene.body().m_links[3].m_rl), 1.05 * double(dry.rest[3]), kRounding);
-  effect.setSaturatedStrain(0);
+  adjust(effect, [](auto& p) { p.saturatedStrain = 0; });
   scene.step(1);
   EXPECT_TRUE(lengthsOf(scene.body()) == dry);
 }

@@ -219,13 +219,13 @@ TEST_P(WaterDragSleep, IsEndedByACurrentALevelThatChangesOrDrainedWater) {
     scene.bullet().step(5 * 240);
     ASSERT_EQ(scene.body().getActivationState(), ISLAND_SLEEPING);
     WaterSurface surface = *parameters.surface;
-    water.setSurface(surface);
+    adjust(water, [&](auto& p) { p.surface = surface; });
     scene.bullet().step(60);
     ASSERT_EQ(scene.body().getActivationState(), ISLAND_SLEEPING) << "nothing has changed";
     if (change == std::string("current")) surface.velocity = btVector3(0, 0, btScalar(0.1));
     if (change == std::string("level")) surface.offset = -0.6;
     if (change == std::string("drained")) surface.offset = 3;
-    water.setSurface(surface);
+    adjust(water, [&](auto& p) { p.surface = surface; });
     scene.bullet().step(2);
     EXPECT_TRUE(scene.body().isActive()) << change;
   }
@@ -241,11 +241,11 @@ TEST_P(WaterDragSleep, IsNotDisturbedByWaterFarBelow) {
   WaterSurface surface = *parameters.surface;
   surface.velocity = btVector3(5, 0, 0);
   surface.offset = 2;
-  water.setSurface(surface);
+  adjust(water, [&](auto& p) { p.surface = surface; });
   scene.bullet().step(10);
   EXPECT_EQ(scene.body().getActivationState(), ISLAND_SLEEPING);
   surface.offset = -0.5;
-  water.setSurface(surface);
+  adjust(water, [&](auto& p) { p.surface = surface; });
   scene.bullet().step(2);
   EXPECT_TRUE(scene.body().isActive()) << "the flood has reached it";
 }

@@ -186,15 +186,15 @@ TEST(WaterDragWaterline, AClothAboveTheWaterCostsNoTrianglesAndFarAboveNoNodes) 
   for (int i = 0; i < 10; ++i) scene.preTick(kSubstep);
   EXPECT_EQ(effect.trianglesVisited(), 0);
   EXPECT_EQ(effect.nodesVisited(), 10 * 25);
-  effect.setSurface(*waterUpTo(-5).surface);
+  adjust(effect, [&](auto& p) { p.surface = *waterUpTo(-5).surface; });
   for (int i = 0; i < 10; ++i) scene.preTick(kSubstep);
   EXPECT_EQ(effect.nodesVisited(), 10 * 25);
   for (int i = 0; i < 25; ++i) EXPECT_EQ(scene.node(i).m_v, kNoGravity);
-  effect.setSurface(*waterUpTo(0.1).surface);
+  adjust(effect, [&](auto& p) { p.surface = *waterUpTo(0.1).surface; });
   scene.preTick(kSubstep);
   EXPECT_EQ(effect.trianglesVisited(), 32);
   EXPECT_GT(effect.totalForce().y(), 0);
-  effect.setSurface(*waterUpTo(-5).surface);
+  adjust(effect, [&](auto& p) { p.surface = *waterUpTo(-5).surface; });
   scene.preTick(kSubstep);
   EXPECT_EQ(effect.totalForce(), kNoGravity) << "of the last step";
 }
@@ -264,7 +264,8 @@ TEST(WaterDragBadInput, OfASetterChangesNothing) {
   WaterDrag& effect = scene.cloth().add<WaterDrag>(waterUpTo(2));
   WaterSurface bad;
   bad.density = -1;
-  EXPECT_EQ(rejection([&] { effect.setSurface(bad); }).find("WaterDrag.surface.density = -1"), 0u);
+  EXPECT_EQ(
+      rejection([&] { adjust(effect, [&](auto& p) { p.surface = bad; }); }).find("WaterDrag.surface.density = -1"), 0u);
   EXPECT_EQ(effect.parameters().surface->offset, -2);
 }
 

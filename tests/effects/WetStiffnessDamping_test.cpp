@@ -172,7 +172,10 @@ TEST_P(WetStiffnessDamping, DoesNoWorkWhenThereIsNone) {
   scene.preTick(1);
   EXPECT_EQ(effect.linksVisited(), 0);
   EXPECT_EQ(scene.node(7).m_v, before);
-  effect.setDamping(1, 1);
+  adjust(effect, [](auto& p) {
+    p.dryDamping = 1;
+    p.wetDamping = 1;
+  });
   scene.preTick(1);
   EXPECT_EQ(effect.linksVisited(), scene.body().m_links.size());
   EXPECT_NE(scene.node(7).m_v, before);

@@ -83,8 +83,17 @@ TEST(WetStiffnessInput, BadParametersAreNamed) {
 
 TEST(WetStiffnessInput, ARefusedSetterChangesNothing) {
   WetStiffness effect({});
-  effect.setDamping(1, 2);
-  EXPECT_NE(rejection([&] { effect.setDamping(3, -1); }).find("wetDamping"), std::string::npos);
+  adjust(effect, [](auto& p) {
+    p.dryDamping = 1;
+    p.wetDamping = 2;
+  });
+  EXPECT_NE(rejection([&] {
+              adjust(effect, [](auto& p) {
+                p.dryDamping = 3;
+                p.wetDamping = -1;
+              });
+            }).find("wetDamping"),
+            std::string::npos);
   EXPECT_EQ(effect.parameters().dryDamping, 1);
   EXPECT_EQ(effect.parameters().wetDamping, 2);
 }

@@ -80,7 +80,7 @@ TEST_P(WetStiffnessLinks, FollowWaterThatMovesWithinAThousandthAndExactlyOnceItR
     // A saturation may lag by 1e-3, and the factor is half as steep.
     ASSERT_NEAR(factor, 1 - 0.5 * meanSaturation(scene, link), 0.5e-3 + 10 * kRounding) << i;
   }
-  soak.setExposure(0.0);
+  adjust(soak, [](auto& p) { p.exposure = 0.0; });
   scene.step(2);
   expectConstants(scene, 0.5, 0.5);
 }

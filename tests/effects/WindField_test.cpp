@@ -85,7 +85,7 @@ TEST(WindField, SetVelocityBlowsFromTheNextStep) {
   Wind& effect = scene.cloth().add<Wind>(wind(btVector3(0, 1, 0)));
   scene.preTick(1e-4);
   const double before = effect.totalForce().y();
-  effect.setVelocity(btVector3(0, 2, 0));
+  adjust(effect, [](auto& p) { p.velocity = btVector3(0, 2, 0); });
   scene.preTick(1e-4);
   EXPECT_NEAR(effect.totalForce().y() / before, 4, 1e-3);
 }
@@ -118,7 +118,8 @@ TEST(WindInput, BadVelocityIsRefusedAndTheOldOneStays) {
   ClothScene scene(WorldKind::softRigid, kNoGravity, levelPatch(5, 1, 1e4), Fabric::cotton(), Hook::manual);
   Wind& effect = scene.cloth().add<Wind>(wind(btVector3(0, 1, 0)));
   const btScalar nan = std::numeric_limits<btScalar>::quiet_NaN();
-  EXPECT_NE(rejection([&] { effect.setVelocity(btVector3(nan, 0, 0)); }).find("velocity"), std::string::npos);
+  EXPECT_NE(rejection([&] { adjust(effect, [&](auto& p) { p.velocity = btVector3(nan, 0, 0); }); }).find("velocity"),
+            std::string::npos);
   scene.preTick(1e-4);
   EXPECT_NEAR(effect.totalForce().y() / (0.5 * 1.225 * 1.2), 1, 1e-4);
 }

@@ -45,7 +45,7 @@ class SmallWorld {
     m_wet->restore(stream);
   }
   /// These bytes as a stream that is not refused for its envelope.
-  std::string wrapped(const std::string& bytes) const {
+  std::string wrapped(const std::string& bytes) {
     std::ostringstream stream;
     wetcloth::StateEnvelope::write(stream, static_cast<std::uint32_t>(m_scene.world().getWorldType()),
                                    std::vector<unsigned char>(bytes.begin(), bytes.end()));

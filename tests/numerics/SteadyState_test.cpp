@@ -32,8 +32,8 @@ struct Resting {
   double capacity() { return cloth.water().totalCapacity(); }
   /// One step of the effect; true when it was left out.
   bool step(double moved) {
-    if (steadyState.isReached(cloth, now)) return true;
-    steadyState.note(cloth, now, moved);
+    if (steadyState.isReached(cloth.body(), cloth.water(), now.gravity)) return true;
+    steadyState.note(cloth.body(), cloth.water(), now.gravity, now.dt, moved);
     return false;
   }
   /// Quiet steps until one is left out.
@@ -45,7 +45,7 @@ struct Resting {
   /// Steps that are left out before one is not, at most `most`.
   int stepsUntilAwake(int most) {
     int steps = 0;
-    while (steps < most && steadyState.isReached(cloth, now)) ++steps;
+    while (steps < most && steadyState.isReached(cloth.body(), cloth.water(), now.gravity)) ++steps;
     return steps;
   }
   BodyScene scene;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Zlib
-#include "bullet_wetcloth/shading/VertexBuffer.h"
+#include "bullet_wetcloth/drawing/VertexBuffer.h"
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"

@@ -49,7 +49,7 @@ class RecordingDrawer : public btIDebugDraw {
 
 RecordingDrawer drawn(ClothScene& scene, double metresPerPascal = 0.01) {
   RecordingDrawer drawer;
-  scene.wet().debugDraw(drawer, metresPerPascal);
+  wetcloth::debugDraw(scene.wet(), drawer, metresPerPascal);
   return drawer;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Zlib
-#include "bullet_wetcloth/shading/DebugDraw.h"
+#include "bullet_wetcloth/drawing/DebugDraw.h"
 
+#include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
+#include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/effects/Wind.h"
 
 #include <LinearMath/btIDebugDraw.h>
@@ -63,6 +65,15 @@ void drawWind(const WetCloth& cloth, btIDebugDraw& drawer, double time, double m
   cloth.forEach<Wind>([&](const Wind& wind) {
     drawTractions(wind, cloth.body(), drawer, time, static_cast<btScalar>(metresPerPascal));
   });
+}
+
+void debugDraw(const WetClothWorld& world, btIDebugDraw& drawer, double metresPerPascal) {
+  requireFinite("metresPerPascal", metresPerPascal);
+  for (const WetCloth& cloth : world.cloths()) {
+    if (!world.isInWorld(cloth.body())) continue;
+    drawSaturation(cloth, drawer);
+    if (metresPerPascal != 0) drawWind(cloth, drawer, world.time(), metresPerPascal);
+  }
 }
 
 }  // namespace WETCLOTH_PRECISION

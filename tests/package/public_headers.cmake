@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Zlib
+# What is installed compiles without a warning of an application's usual ones, each header by itself, in C++17, 20 and
+# 23, by every compiler that is here.
+include("${CMAKE_CURRENT_LIST_DIR}/package_test.cmake")
+
+set(SANITIZE "")
+set(CXX_COMPILER_LAUNCHER "")
+set(alone ON)
+foreach(compiler IN ITEMS "${CXX_COMPILER}" ${OTHER_COMPILERS})
+  cmake_path(GET compiler FILENAME name)
+  set(CXX_COMPILER "${compiler}")
+  file(REMOVE_RECURSE "${WORK_DIR}/${name}")
+  configure("${CMAKE_CURRENT_LIST_DIR}/headers" "${WORK_DIR}/${name}" "-DCMAKE_PREFIX_PATH=${INSTALLED}"
+            -DALONE=${alone})
+  run("${CMAKE_COMMAND}" --build "${WORK_DIR}/${name}" --parallel 2)
+  set(alone OFF)
+endforeach()
