@@ -4,6 +4,7 @@
 // Everything that an application needs to make its Bullet cloth wet.
 
 #include "bullet_wetcloth/Fabric.h"
+#include "bullet_wetcloth/Version.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/drawing/DebugDraw.h"

@@ -38,7 +38,7 @@ int main() {
   wetcloth::WetClothWorld wet(world);
   wetcloth::WetCloth& towel = wet.add(*cloth, wetcloth::Fabric::cotton());
   towel.add<wetcloth::Absorption>();
-  towel.add<wetcloth::Wind>({/* velocity [m/s] */ btVector3(1, 0, 2)});
+  adjust(towel.add<wetcloth::Wind>(), [](auto& wind) { wind.velocity = btVector3(1, 0, 2); });  // [m/s]
 
   // Your loop, unchanged.
   std::printf("time [s]  mass [g]  saturation  colour (linear RGB)   lower edge downwind [m]\n");

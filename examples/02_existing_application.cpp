@@ -68,7 +68,7 @@ btVector3 run(wetcloth::Hook hook) {
     if (hook == wetcloth::Hook::manual) app.wet = &wet;
     wetcloth::WetCloth& towel = wet.add(*app.cloth);
     towel.add<wetcloth::Absorption>();
-    towel.add<wetcloth::Wind>({btVector3(2, 0, 0)});
+    adjust(towel.add<wetcloth::Wind>(), [](auto& wind) { wind.velocity = btVector3(2, 0, 0); });
     app.runOneSecond();
     position = app.picked->m_x;
     std::printf("%s  saturation %.4f  dragged %d times, %d ticks, node at (%.4f, %.4f, %.4f) m\n",

@@ -38,7 +38,10 @@ int main() {
   wetcloth::WetClothWorld wet(world);
   wetcloth::WetCloth& towel = wet.add(*cloth, wetcloth::Fabric::highAbsorption());
   wetcloth::ContactWetting::Parameters contact;
-  contact.wetBodies = {{&floor, /* water [kg] */ 0.3}};
+  wetcloth::ContactWetting::WetBody puddle;
+  puddle.body = &floor;
+  puddle.water = 0.3;  // [kg]
+  contact.wetBodies = {puddle};
   wetcloth::ContactWetting& wetting = towel.add<wetcloth::ContactWetting>(contact);
   towel.add<wetcloth::Diffusion>();    // what touches shares with what does not
   towel.add<wetcloth::WetFriction>();  // changes Bullet's friction, contact by contact

@@ -52,7 +52,7 @@ int main() {
   wetcloth::WetClothWorld wet(world);
   wetcloth::WetCloth& cloth = wet.add(*body, wetcloth::Fabric::cotton());
   cloth.add<wetcloth::Absorption>();
-  cloth.add<wetcloth::Wind>({btVector3(0, 0, 3)});
+  adjust(cloth.add<wetcloth::Wind>(), [](auto& wind) { wind.velocity = btVector3(0, 0, 3); });
 
   std::vector<Vertex> vertices(static_cast<std::size_t>(cloth.nodeCount()));
   constexpr int stride = sizeof(Vertex) / sizeof(float);  // offsets and strides count floats, as Bullet's own do

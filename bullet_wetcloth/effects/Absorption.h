@@ -54,6 +54,7 @@ class WETCLOTH_EXPORT Absorption : public Effect {
 
   const char* name() const override { return "Absorption"; }
   Stage stage() const override { return Stage::sources; }
+  /// Throws std::invalid_argument when the effect is added and an exposure has not one value per node.
   void attach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
   void transferState(StateArchive& archive) override;

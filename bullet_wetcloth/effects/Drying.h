@@ -63,7 +63,8 @@ class WETCLOTH_EXPORT Drying : public Effect {
 
   const char* name() const override { return "Drying"; }
   Stage stage() const override { return Stage::losses; }
-  /// Throws std::invalid_argument when the body has no faces, or an exposure has not one value per node.
+  /// Throws std::invalid_argument when the body has no faces, or when the effect is added and an exposure has not one
+  /// value per node.
   void attach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
   void transferState(StateArchive& archive) override;

@@ -3,35 +3,49 @@
 
 #include "bullet_wetcloth/Require.h"
 
+#include <string>
+
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 double Exposure::at(std::size_t node, const btVector3& position, const btVector3& normal) const {
-  if (m_function) {
-    const double value = m_function(position, normal);
+  if (const auto* const function = std::get_if<Function>(&m_value)) {
+    const double value = (*function)(position, normal);
     return value > 0 ? (value < 1 ? value : 1) : 0;  // NaN compares false, so it counts as 0
   }
-  if (isPerNode()) return node < m_perNode.size() ? m_perNode[node] : 0;
-  return m_constant;
+  if (const auto* const perNode = std::get_if<std::vector<double>>(&m_value)) {
+    return node < perNode->size() ? (*perNode)[node] : 0;
+  }
+  return *std::get_if<double>(&m_value);
 }
 
 void Exposure::requireValid(const char* field) const {
-  if (m_function) return;
-  if (!isPerNode()) requireFraction(field, m_constant);
-  for (std::size_t i = 0; i < m_perNode.size(); ++i) {
-    requireFraction(std::string(field) + "[" + std::to_string(i) + "]", m_perNode[i]);
+  if (const auto* const constant = std::get_if<double>(&m_value)) requireFraction(field, *constant);
+  if (const auto* const function = std::get_if<Function>(&m_value)) {
+    if (!*function) reject(field, "must not be an empty function");
+  }
+  if (const auto* const perNode = std::get_if<std::vector<double>>(&m_value)) {
+    if (perNode->empty()) rejectValue(std::string(field) + ".size()", 0, "the number of the body's nodes");
+    for (std::size_t i = 0; i < perNode->size(); ++i) {
+      requireFraction(std::string(field) + "[" + std::to_string(i) + "]", (*perNode)[i]);
+    }
   }
 }
 
 void Exposure::requireSize(const char* field, std::size_t nodes) const {
-  if (isPerNode() && m_perNode.size() != nodes) {
-    rejectValue(std::string(field) + ".size()", m_perNode.size(),
+  const auto* const perNode = std::get_if<std::vector<double>>(&m_value);
+  if (perNode && perNode->size() != nodes) {
+    rejectValue(std::string(field) + ".size()", perNode->size(),
                 "the number of the body's nodes, " + std::to_string(nodes));
   }
 }
 
 void Exposure::requireSize(const char* field, std::size_t nodes, const Exposure& before) const {
-  if (m_perNode.size() != before.m_perNode.size()) requireSize(field, nodes);
+  const auto sizeOf = [](const Exposure& exposure) {
+    const auto* const perNode = std::get_if<std::vector<double>>(&exposure.m_value);
+    return perNode ? perNode->size() : 0;
+  };
+  if (sizeOf(*this) != sizeOf(before)) requireSize(field, nodes);
 }
 
 }  // namespace WETCLOTH_PRECISION

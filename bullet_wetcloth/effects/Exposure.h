@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "bullet_wetcloth/Export.h"
 #include "bullet_wetcloth/Precision.h"
 
 #include <LinearMath/btVector3.h>
@@ -8,6 +9,7 @@
 #include <cstddef>
 #include <functional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace wetcloth {
@@ -19,21 +21,21 @@ class WETCLOTH_EXPORT Exposure {
  public:
   using Function = std::function<double(const btVector3& position, const btVector3& normal)>;
 
-  Exposure(double everywhere) : m_constant(everywhere) {}
-  Exposure(std::vector<double> perNode) : m_perNode(std::move(perNode)) {}
-  Exposure(Function function) : m_function(std::move(function)) {}
+  Exposure(double everywhere) : m_value(everywhere) {}
+  Exposure(std::vector<double> perNode) : m_value(std::move(perNode)) {}
+  Exposure(Function function) : m_value(std::move(function)) {}
   template <class F, class = decltype(std::declval<F>()(btVector3(), btVector3()))>
-  Exposure(F function) : m_function(std::move(function)) {}
+  Exposure(F function) : m_value(Function(std::move(function))) {}
 
-  bool isFunction() const { return static_cast<bool>(m_function); }
-  bool isPerNode() const { return !m_perNode.empty(); }
+  bool isFunction() const { return std::holds_alternative<Function>(m_value); }
+  bool isPerNode() const { return std::holds_alternative<std::vector<double>>(m_value); }
 
   /// A function's value is clamped to [0, 1], and NaN counts as 0. Nodes beyond the end of an array (made when the
   /// body was cut) have exposure 0.
   double at(std::size_t node, const btVector3& position, const btVector3& normal) const;
 
   /// Throws std::invalid_argument naming `field` and the value when a constant or an array's value is not in
-  /// [0, 1] or not finite.
+  /// [0, 1] or not finite, when an array has no values, and when a function is empty.
   void requireValid(const char* field) const;
   /// Throws std::invalid_argument when an array has not one value per node.
   void requireSize(const char* field, std::size_t nodes) const;
@@ -42,9 +44,7 @@ class WETCLOTH_EXPORT Exposure {
   void requireSize(const char* field, std::size_t nodes, const Exposure& before) const;
 
  private:
-  double m_constant = 0;
-  std::vector<double> m_perNode;
-  Function m_function;
+  std::variant<double, std::vector<double>, Function> m_value;
 };
 
 }  // namespace WETCLOTH_PRECISION

@@ -57,6 +57,7 @@ class WETCLOTH_EXPORT Seepage : public Effect {
 
   /// Nodes visited so far: for tests that count work. A settled cloth adds none.
   long long nodesVisited() const { return m_nodesVisited; }
+  /// Of all steps so far.
   long long substeps() const { return m_substeps; }
 
  private:

@@ -31,7 +31,7 @@ WETCLOTH_EXPORT btVector3 quadraticWindForce(const btVector3& a, const btVector3
 WETCLOTH_EXPORT btVector3 linearWindForce(const btVector3& a, const btVector3& b, const btVector3& c,
                                           const btVector3& velocity, const btVector3& wind, double linearDrag);
 
-/// Wind and air resistance on the cloth's triangles. Air at rest is wind too: Wind({btVector3(0, 0, 0)}) is drag.
+/// Wind and air resistance on the cloth's triangles. Air at rest, the default, is wind too: it is drag.
 ///
 /// Stands on its own beside Bullet's aerodynamics: a body whose m_cfg.kDG or kLF is set feels both; set them to 0
 /// (Bullet's default) to feel only this.

@@ -14,16 +14,19 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-/// Water that a triangle catches of a stream [kg/s]: flux x projected area, both sides alike, flux |n . d| A.
-/// Zero for a triangle without area, a direction of length 0, and values that are not finite.
+/// Water that a triangle catches from a stream of drops [kg/s]: flux |n . d| A, with n the triangle's normal, A its
+/// area and d the stream's direction, both of length 1. Both sides of the triangle catch alike. Zero for a triangle
+/// without area, a direction of length 0, and values that are not finite.
 /// @param direction  of the stream, of any length
 /// @param flux       [kg/m^2/s] through an area across the stream
 WETCLOTH_EXPORT double caughtFlux(const btVector3& a, const btVector3& b, const btVector3& c,
                                   const btVector3& direction, double flux);
 
-/// What flying drops do when they meet a cloth, for every effect that makes them fly: a triangle gives what it caught
-/// to its corners, a third each; a node takes what it has room for with the drops' velocity, and the rest strikes it
-/// and runs off.
+/// What happens to flying drops that meet a cloth: a member of each effect with flying drops.
+///
+/// A step is begin(), a strike() for each triangle that drops meet, and deliver(). A triangle shares what it caught
+/// among its corners, a third each. A node takes up what it has room for, and with it the drops' momentum. The rest
+/// gives the node its momentum, too, and runs off.
 class WETCLOTH_EXPORT DropCatcher {
  public:
   using Triangle = std::array<int, 3>;
@@ -32,18 +35,20 @@ class WETCLOTH_EXPORT DropCatcher {
   void attach(const char* effect, const btSoftBody& body);
 
   const std::vector<Triangle>& triangles() const { return m_triangles; }
-  /// Of the nodes, at the last begin() [m].
+  /// Where the nodes were at the last begin() [m].
   const std::vector<btVector3>& positions() const { return m_positions; }
   btVector3 centroid(std::size_t triangle) const;
 
-  /// A step begins: nothing caught, the nodes where they are now.
+  /// Begins a step: nothing is caught yet, and the nodes are where the body has them now.
   void begin(const btSoftBody& body);
-  /// A step in which nothing is caught.
+  /// Takes the place of begin() to deliver() in a step in which no drops fly.
   void skip() { m_caught = 0; }
-  /// A triangle catches what flies in this direction (of length 1) with this velocity [m/s].
-  /// @param perArea  [kg/m^2] across the stream. Ignored when what it comes to is not finite.
+  /// A triangle catches the drops of this step.
+  /// @param direction  in which they fly, of length 1; @param velocity  of the drops [m/s]
+  /// @param perArea    water through an area across the stream in this step [kg/m^2]
+  /// What would be no finite mass or momentum is ignored.
   void strike(std::size_t triangle, const btVector3& direction, double perArea, const btVector3& velocity);
-  /// Gives what was caught to the nodes, of each its share when that is more than `most` [kg] together.
+  /// Gives the nodes what was caught. When that is more than `most` [kg] in all, each node gets the same fraction less.
   void deliver(Water& water, double most);
   /// Water that struck the cloth in the last step [kg].
   double caught() const { return m_caught; }
@@ -58,7 +63,7 @@ class WETCLOTH_EXPORT DropCatcher {
 
   std::vector<Triangle> m_triangles;
   std::vector<btVector3> m_positions;
-  std::vector<Drops> m_drops;  // on each node
+  std::vector<Drops> m_drops;  // that struck each node in this step
   NodeUptake m_uptake;
   double m_caught = 0;
 };

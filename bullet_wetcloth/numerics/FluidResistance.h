@@ -10,9 +10,10 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-// What a fluid does to a triangle that moves through it: shared by Wind and WaterDrag.
+// The force of a fluid on a triangle that moves through it, for air (Wind) and water (WaterDrag).
 
-/// A triangle's unit normal and area; area 0 and normal 0 for one that has none (or is not finite).
+/// A triangle's unit normal and its area [m^2]. Both are 0 for a triangle without area, or whose corners are not
+/// finite.
 struct FlatTriangle {
   btVector3 normal;
   btScalar area;
@@ -25,18 +26,23 @@ inline FlatTriangle flatTriangle(const btVector3& a, const btVector3& b, const b
   return {twice / length, length / 2};
 }
 
-/// Speed at the end of a step of du/dt = -a |u| u by backward Euler, from speed u: the root of v + a v^2 = u. With it
-/// as the lagged coefficient, a falling sheet reaches its terminal speed exactly, whatever the step.
+/// The speed v after a step in which quadratic drag slows down a speed u >= 0 [m/s]: backward Euler for
+/// du/dt = -c u^2, so v + a v^2 = u with a = c dt [s/m], >= 0.
+///
+/// An implicit step that is linear in the velocity takes v for the speed in its drag coefficient. So a falling sheet
+/// reaches its exact terminal speed, however long the step.
 inline btScalar dampedSpeed(btScalar u, btScalar a) { return 2 * u / (1 + std::sqrt(1 + 4 * a * u)); }
 
-/// Force per area and relative speed [N s/m^3], along the normal and along the surface.
+/// How strongly a fluid resists: force per area and per relative speed [N s/m^3], along the normal of a triangle and
+/// along its surface.
 struct FluidResistance {
-  btScalar linear;     ///< k
-  btScalar quadratic;  ///< 1/2 rho C_d
-  btScalar friction;   ///< 1/2 rho C_f
-  btScalar dt;         ///< of the implicit step, 0: explicit
+  btScalar linear;     ///< of the linear law, k [N s/m^3]
+  btScalar quadratic;  ///< of the quadratic law along the normal, 1/2 rho C_d [kg/m^3]
+  btScalar friction;   ///< of the quadratic law along the surface, 1/2 rho C_f [kg/m^3]
+  btScalar dt;         ///< step of the implicit integration [s]; 0: explicit
 
-  /// @param specificArea  of the cloth around the triangle [m^2/kg]
+  /// @param speed         relative to the fluid in this direction [m/s], >= 0
+  /// @param specificArea  area per mass of the cloth around the triangle [m^2/kg]
   btScalar normal(btScalar speed, btScalar specificArea) const {
     return linear + quadratic * dampedSpeed(speed, dt * quadratic * specificArea);
   }

@@ -28,10 +28,11 @@ WETCLOTH_EXPORT Colour wetColour(const Colour& dry, double saturation);
 /// are 0.093 g, 0.342 g, 0.591 g and 0.84 g of its Table II. Constant from saturation on.
 WETCLOTH_EXPORT int paperStage(double saturation);
 /// The paper's colour: four equal steps from dry to the darkest colour, wetColour(dry, 1).
+/// Throws std::invalid_argument when a channel is not in [0, 1].
 WETCLOTH_EXPORT Colour paperColour(const Colour& dry, double saturation);
 
 /// Roughness for a renderer: linear from dry to 0.35 of it at saturation (a wet fabric's film is smoother).
-/// `dryRoughness` in [0, 1]; the saturation is clamped to [0, 1].
+/// The saturation is clamped to [0, 1]. Throws std::invalid_argument when dryRoughness is not in [0, 1].
 WETCLOTH_EXPORT double wetRoughness(double dryRoughness, double saturation);
 
 }  // namespace WETCLOTH_PRECISION

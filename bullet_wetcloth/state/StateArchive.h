@@ -122,11 +122,12 @@ class WETCLOTH_EXPORT StateArchive {
     if (isThere) transfer(*value);
   }
 
-  /// A place in an array of that size, or -1: the one handed in while saving, the saved one otherwise.
+  /// A place in an array of that size, or -1: the one handed in while saving, the saved one otherwise. Throws
+  /// StateError when the saved one is out of range.
   int index(int index, int size, const char* what);
   /// The same where -1 is not allowed.
   int place(int index, int size, const char* what);
-  /// How many of something follow. What the stream cannot hold is refused.
+  /// How many of something follow. Throws StateError when the stream is too short for so many.
   std::size_t count(std::size_t live);
   /// What must be the same here: throws StateError that names it and both values.
   template <class T>
@@ -156,6 +157,7 @@ class WETCLOTH_EXPORT StateArchive {
     closeSection(name, begin);
   }
 
+  /// Throws StateError with this message and the place in the stream.
   [[noreturn]] void fail(const std::string& message) const;
 
   const std::vector<unsigned char>& bytes() const { return m_bytes; }

@@ -43,27 +43,29 @@ class WETCLOTH_EXPORT CompensatedSum {
   double m_compensation = 0;
 };
 
-/// The same of all of these.
+/// The sum of all these values, by a CompensatedSum.
 WETCLOTH_EXPORT double compensatedSum(const std::vector<double>& values);
 
-/// An exponential never arrives: when less than this share of a node's capacity is missing, or left to go, it goes all
-/// at once, so that a cloth which is full or dry can idle. A tenth of the closeness to the closed forms that we
-/// promise.
+/// An exponential never reaches its end. So when a node lacks less than this share of its capacity, it is filled, and
+/// when it holds less, it is dried, all at once: then a cloth that is full or dry can idle. The value is a tenth of the
+/// deviation from the closed forms that we promise not to exceed.
 constexpr double kNegligible = 1e-13;
 
 /// The water of one cloth, per node, and its ledger. All in kg and double, whatever Bullet's precision.
 ///
-/// Effects change it through absorb(), runOff(), drip(), handOver(), evaporate(), move() and redistribute(); what
-/// arrived since the last commit and with which momentum is remembered, so that the commit can update velocities and
-/// masses once per step.
+/// Effects change it through absorb(), runOff(), drip(), handOver(), evaporate(), move() and redistribute(). Masses and
+/// velocities follow once per step, in the commit: until then Water remembers what arrived at each node, and with which
+/// momentum.
 class WETCLOTH_EXPORT Water {
  public:
   /// What came to a node since the last commit.
   struct Arrival {
-    double mass = 0;                 ///< that stays [kg]
-    double momentum[3] = {0, 0, 0};  ///< of mass and runOff [kg m/s]
-    double runOff = 0;               ///< that brought momentum, and left [kg]
-    double shifted = 0;  ///< went to others (< 0), or came and is no part of mass: from nodes, or joined already [kg]
+    double mass = 0;                 ///< water that came and stays [kg]
+    double momentum[3] = {0, 0, 0};  ///< of `mass` and `runOff` together, when they came [kg m/s]
+    double runOff = 0;               ///< water that struck the node and ran off [kg]
+    /// Water that changed the node's mass since the commit without being in `mass` [kg]: > 0 what redistribute()
+    /// brought or what has joined the node already, < 0 what went to other nodes or cloths.
+    double shifted = 0;
   };
 
   std::size_t size() const { return m_held.size(); }
@@ -79,10 +81,10 @@ class WETCLOTH_EXPORT Water {
 
   Ledger ledger() const;
 
-  /// Grows with every change of the water or of a capacity, by an effect or by hand: an effect that found nothing to do
-  /// may idle until it changes.
+  /// Grows with every change of the water or of a capacity, by an effect or by hand. An effect that found nothing to do
+  /// may idle until this number is another one.
   unsigned long long revision() const { return m_revision; }
-  /// All water that was ever moved, in, out, within or by hand [kg]: never falls.
+  /// All water that was ever moved [kg]: into the cloth, out of it, between its nodes, or by hand. Never falls.
   double moved() const;
   /// Capacity of all nodes [kg].
   double totalCapacity() const { return m_capacityRatio * m_totalDryMass; }
@@ -107,9 +109,9 @@ class WETCLOTH_EXPORT Water {
   void runOff(std::size_t node, double mass, double vx, double vy, double vz);
   /// Liquid that leaves at the node's own velocity; at most what is held. Returns what left.
   double drip(std::size_t node, double mass) { return take(node, mass, m_dripped); }
-  /// Liquid that another cloth takes in this step, with the velocity that the node has now; at most what is held.
-  /// Booked as dripped, but what arrives later in the step does not meet it any more. Call WetCloth::joinArrivals()
-  /// before. Returns what left.
+  /// Liquid that another cloth takes in this step, at most what is held; returns what left. It is booked as dripped.
+  /// It leaves with the velocity that the node has now, and at once: water that arrives later in the step meets a node
+  /// without it. Call WetCloth::joinArrivals() before.
   double handOver(std::size_t node, double mass) {
     const double left = drip(node, mass);
     m_arrivals[node].shifted -= left;
@@ -117,13 +119,14 @@ class WETCLOTH_EXPORT Water {
   }
   /// Vapour that leaves at the node's own velocity; at most what is held. Returns what left.
   double evaporate(std::size_t node, double mass) { return take(node, mass, m_evaporated); }
-  /// Water that moves inside the cloth, with the velocity (vx, vy, vz) of the node it leaves [m/s]; what of it came to
-  /// that node in this step goes on with the momentum that it brought. At most what is held.
+  /// Water that moves from one node to another, at most what is held. It takes along the velocity (vx, vy, vz) of the
+  /// node that it leaves [m/s]; the part of it that came to that node in this same step keeps the momentum that it
+  /// brought.
   void move(std::size_t from, std::size_t to, double mass, double vx, double vy, double vz);
-  /// Water that moves between many nodes at once: node i ends with `held[i]` [kg], finite and >= 0. The sum must be
-  /// what is held now, to rounding, which is booked under `initial`. The momentum that moved with it is the caller's
-  /// to see to, with WetCloth::push(), and WetCloth::joinArrivals() before: what arrived in this step and has not
-  /// joined its node stays with it, whatever moves on.
+  /// Water that moves between many nodes at once: node i ends with `held[i]` [kg], finite and >= 0. Their sum must be
+  /// what is held now; a difference by rounding is booked under `initial`. Momentum is left to the caller: call
+  /// WetCloth::joinArrivals() before, since what has not joined its node yet would not move on, and give the nodes
+  /// their new velocities with WetCloth::push().
   void redistribute(const std::vector<double>& held);
 
   // --- for the commit ---------------------------------------------------------------------------------------
@@ -132,7 +135,7 @@ class WETCLOTH_EXPORT Water {
   /// Whether water left a node, or moved between nodes, since the last commit.
   bool leftSinceCommit() const { return m_leftSinceCommit; }
   const Arrival& arrival(std::size_t node) const { return m_arrivals[node]; }
-  /// The arrival's momentum is in the node's velocity now: its mass is the node's like all other.
+  /// Says that the momentum of what arrived is in the node's velocity now: from then on it is water like all other.
   void joinArrival(std::size_t node);
   void clearArrivals();
 
@@ -148,12 +151,14 @@ class WETCLOTH_EXPORT Water {
     m_dryMass[node] = mass;
     ++m_revision;
   }
-  /// The body's nodes changed: new arrays whose total water must equal the old one's to rounding.
+  /// The body's nodes changed: new dry masses and new water [kg] of each, whose sum must be what is held now, to
+  /// rounding.
   void replaceNodes(std::vector<double> dryMass, std::vector<double> held);
   void transferState(StateArchive& archive);
 
  private:
-  // Consecutive nodes are summed in turn, so that no addition waits for the one before.
+  // absorb() adds neighbouring nodes to different sums, so that the processor need not finish one addition before the
+  // next.
   static constexpr std::size_t kLanes = 8;
 
   double take(std::size_t node, double mass, CompensatedSum& account);

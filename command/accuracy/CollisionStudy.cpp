@@ -5,6 +5,7 @@
 #include "command/ccd/CcdTiming.h"
 #include "command/ccd/QueryFile.h"
 #include "command/cli/Errors.h"
+#include "command/cli/ProgramFolder.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -19,7 +20,8 @@ namespace {
 
 using wetcloth::collision::Pair;
 
-constexpr const char* queryFile = WETCLOTH_QUERIES;
+/// Of the data that go with the command
+constexpr const char* queryFile = "ccd/real_queries.csv.gz";
 
 struct Tier {
   const char* method;
@@ -88,7 +90,7 @@ std::optional<Setting> settingOf(const Tier& tier, Pair pair, const std::vector<
 
 std::vector<Study> studyPair(Pair pair, const std::string& word, const std::string& kind, const Effort& effort,
                              const TellProgress& tell) {
-  const std::vector<command::KnownQuery> queries = ofPair(command::readQueries(queryFile), pair);
+  const std::vector<command::KnownQuery> queries = ofPair(command::readQueries(command::dataFile(queryFile)), pair);
   const std::string count = std::to_string(queries.size());
   Plan plan;
   plan.knob = "tolerance";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/ccd/CcdReport.h"
 
-#include "command/scene/Scene.h"
+#include "command/cli/Precision.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Zlib
 #include "command/cli/CommandLine.h"
 
+#include "bullet_wetcloth/Version.h"
 #include "command/cli/Errors.h"
 #include "command/cli/NearestWord.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-
-#ifndef WETCLOTH_VERSION
-#define WETCLOTH_VERSION "0.1.0"
-#endif
 
 namespace command {
 namespace {
@@ -47,7 +44,7 @@ CommandLine::CommandLine(const std::vector<AddCommand>& commands, const std::str
     : m_app(std::make_unique<CLI::App>(
           "Runs scenes with cloth that gets wet, in Bullet, and compares them with Bullet as it is.", "wetcloth")) {
   m_app->footer(examples);
-  m_app->set_version_flag("--version", "wetcloth " WETCLOTH_VERSION);
+  m_app->set_version_flag("--version", "wetcloth " WETCLOTH_VERSION_STRING);
   m_app->require_subcommand(1);
   for (const AddCommand add : commands) m_commands.push_back(add(*m_app));
 }

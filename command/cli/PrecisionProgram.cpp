@@ -2,8 +2,8 @@
 #include "command/cli/PrecisionProgram.h"
 
 #include "command/cli/Errors.h"
+#include "command/cli/ProgramFolder.h"
 
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -14,28 +14,12 @@
 #else
 #include <unistd.h>
 #endif
-#ifdef __APPLE__
-#include <mach-o/dyld.h>
-#endif
 
 namespace command {
 namespace {
 
-std::filesystem::path ownPath() {
-#if defined(_WIN32)
-  return _pgmptr;
-#elif defined(__APPLE__)
-  char path[4096];
-  std::uint32_t size = sizeof path;
-  return _NSGetExecutablePath(path, &size) == 0 ? path : "";
-#else
-  std::error_code ignored;
-  return std::filesystem::read_symlink("/proc/self/exe", ignored);
-#endif
-}
-
 std::filesystem::path pathOf(Precision precision) {
-  return ownPath().parent_path() / (precision == Precision::float64 ? "wetcloth-float64" : "wetcloth");
+  return programFolder() / (precision == Precision::float64 ? "wetcloth-float64" : "wetcloth");
 }
 
 /// Two programs of the same precision under both names must not start each other for ever.

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: Zlib
 #include "command/cost/CostScene.h"
 
-#include "command/scene/EffectReader.h"
-#include "command/scene/SceneKeys.h"
+#include "command/scene/EffectCatalogue.h"
 
 namespace command {
 namespace {
 
-/// From the table of keys, so that an effect that is new there is measured here.
 Json everyEffect() {
   Json effects = Json::object();
-  for (const std::string& key : keys::effects.keys) effects[key] = Json::object();
-  effects["contact_wetting"]["films"] = {{{"collider", 0}, {"water_kg", 1}}};
-  // The parameters without a default
-  effects["wind"]["velocity_m_s"] = {2, 0, 1};
-  effects["splash"] = {{"sphere", {{"centre_m", {0.5, 0.5, 0}}, {"radius_m", 0.2}}}, {"velocity_m_s", {0, 0, 5}}};
+  for (const EffectEntry& entry : effectCatalogue()) effects[entry.key] = entry.example;
   return effects;
 }
 

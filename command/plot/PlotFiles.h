@@ -24,6 +24,8 @@ class PlotFiles {
 
  private:
   StagedOutput staged(const std::string& name) const;
+  /// What gnuplot has drawn; it may say that all is well and have drawn nothing.
+  void publish(StagedOutput& picture, const std::string& name) const;
 
   std::filesystem::path m_directory;
   bool m_hasPictures = true;

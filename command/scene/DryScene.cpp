@@ -2,18 +2,11 @@
 #include "command/scene/DryScene.h"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 namespace command {
 namespace {
 
-constexpr std::array<std::string_view, 9> waterEffects{
-    "absorption", "immersion", "rain", "splash", "contact_wetting", "diffusion", "seepage", "dripping", "drying"};
-
-bool isOfWater(const EffectScene& effect) {
-  return std::find(waterEffects.begin(), waterEffects.end(), effect.key) != waterEffects.end();
-}
+bool isOfWater(const EffectScene& effect) { return effect.water != WaterRole::none; }
 
 }  // namespace
 

@@ -37,11 +37,6 @@ inline Mode readMode(const JsonCursor& cursor) {
   return mode ? mode->choice(modes) : Mode::physical;
 }
 
-/// Complains about an effect that needs water in a scene that has none.
-inline void requireWater(const JsonCursor& effect, const Scene& scene) {
-  if (!scene.water) effect.complain("the scene must say where its water is, /water");
-}
-
 /// One value for each node, one for all, or `{"below_m": y}`. @param nodes of the cloth
 wetcloth::Exposure readExposure(JsonCursor cursor, int nodes);
 

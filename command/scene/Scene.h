@@ -50,10 +50,14 @@ using Colliders = std::vector<const btCollisionObject*>;
 /// Adds an effect to a cloth. Throws std::invalid_argument when the library refuses it.
 using AddEffect = std::function<wetcloth::Effect&(wetcloth::WetCloth& cloth, const Colliders& colliders)>;
 
+/// What an effect does with water: a scene without water does without all but those of none.
+enum class WaterRole { none, brings, moves, takes };
+
 /// An effect that a cloth of a scene asks for.
 struct EffectScene {
   std::string key;  ///< as the scene spells it
   AddEffect addTo;
+  WaterRole water = WaterRole::none;
 };
 
 struct ClothScene {

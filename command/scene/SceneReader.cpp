@@ -2,7 +2,7 @@
 #include "command/scene/SceneReader.h"
 
 #include "command/cli/Errors.h"
-#include "command/scene/EffectReader.h"
+#include "command/cli/ProgramFolder.h"
 #include "command/scene/JsonCursor.h"
 #include "command/scene/ObjReader.h"
 #include "command/scene/Quality.h"
@@ -12,6 +12,8 @@
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 
 namespace command {
 namespace {
@@ -191,7 +193,7 @@ MotionScene readMotion(JsonCursor cursor, const ClothScene& cloth) {
   return motion;
 }
 
-ClothScene readCloth(JsonCursor cursor, const Scene& scene) {
+ClothScene readCloth(JsonCursor cursor, const Scene& scene, const EffectCatalogue& catalogue) {
   cursor.expectObject(keys::cloth);
   ClothScene cloth;
   if (const auto name = cursor.find("name")) cloth.name = name->text();
@@ -211,7 +213,7 @@ ClothScene readCloth(JsonCursor cursor, const Scene& scene) {
   if (const auto twist = cursor.find("twist")) cloth.twist = readTwist(*twist, cloth);
   if (const auto motion = cursor.find("motion")) cloth.motion = readMotion(*motion, cloth);
   readSprings(cursor, scene.world, cloth.springs);
-  if (const auto effects = cursor.find("effects")) cloth.effects = readEffects(*effects, {scene, cloth});
+  if (const auto effects = cursor.find("effects")) cloth.effects = readEffects(*effects, {scene, cloth}, catalogue);
   return cloth;
 }
 
@@ -282,16 +284,26 @@ void readWorld(const JsonCursor& cursor, Scene& scene) {
   }
 }
 
+/// The file itself or, for a bare name that is not in the working directory, the scene that goes with the command
+std::string sceneFile(const std::string& name) {
+  std::error_code ignored;
+  if (std::filesystem::path(name).has_parent_path() || std::filesystem::exists(name, ignored)) return name;
+  const std::string file = dataFile("scenes/" + name);
+  return std::filesystem::is_regular_file(file, ignored) ? file : name;
+}
+
 }  // namespace
 
-PrecisionWish readPrecision(const std::string& file) {
+PrecisionWish readPrecision(const std::string& given) {
+  const std::string file = sceneFile(given);
   const Json json = loadJson(file);
   JsonCursor cursor(json, file);
   cursor.expectObject(keys::scene);
   return {precisionAt(cursor), file + ": /precision"};
 }
 
-Scene readScene(const std::string& file) {
+Scene readScene(const std::string& given, const EffectCatalogue& catalogue) {
+  const std::string file = sceneFile(given);
   const Json json = loadJson(file);
   JsonCursor cursor(json, file);
   cursor.expectObject(keys::scene);
@@ -308,7 +320,7 @@ Scene readScene(const std::string& file) {
   }
   if (const auto water = cursor.find("water")) scene.water = readWater(*water);
   for (const JsonCursor& cloth : cursor.at("cloths").elements()) {
-    scene.cloths.push_back(readCloth(cloth, scene));
+    scene.cloths.push_back(readCloth(cloth, scene, catalogue));
   }
   if (scene.cloths.empty()) cursor.at("cloths").reject("an array with at least one cloth");
   if (const auto camera = cursor.find("camera")) scene.camera = readCamera(*camera);

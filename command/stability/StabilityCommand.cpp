@@ -5,15 +5,18 @@
 #include "command/stability/StabilityReport.h"
 #include "command/stability/StabilityRun.h"
 #include "command/stability/StabilityTable.h"
+#include "command/stability/StoredOutcomes.h"
 #include "command/stability/World.h"
 
 #include "command/cli/CommonOptions.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/cli/Progress.h"
+#include "command/cli/StagedOutput.h"
 
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +34,7 @@ struct StabilityOptions {
   bool isQuick = false;
   std::string json;
   std::string markdown;
+  std::string outcomes;
 };
 
 constexpr double smallestStep = 1e-4;
@@ -66,6 +70,11 @@ Selection selectionOf(const StabilityOptions& options) {
   return selection;
 }
 
+void write(const StoredOutcomes& outcomes, command::StagedOutput& output) {
+  std::ofstream(output.path()) << outcomes.text();
+  output.commit();
+}
+
 void tryHardCases(const StabilityOptions& options) {
   const Selection selection = selectionOf(options);
   const std::vector<Combination> combinations = combinationsOf(selection);
@@ -77,11 +86,17 @@ void tryHardCases(const StabilityOptions& options) {
   if (!options.markdown.empty()) {
     section.emplace(options.markdown, "stability " + command::nameOf(command::ownPrecision));
   }
+  std::optional<command::StagedOutput> outcomes;
+  if (!options.outcomes.empty()) {
+    outcomes.emplace("wetcloth: --outcomes = \"" + options.outcomes + "\"", options.outcomes,
+                     command::StagedOutput::Kind::file);
+  }
   std::vector<CaseResult> results;
   {
     command::Progress progress("trying " + std::to_string(combinations.size()) + " hard cases");
     results = runCombinations(combinations, selection.effort, [&](double done) { progress.update(done); });
   }
+  if (outcomes) write(StoredOutcomes(results), *outcomes);
   const StabilityReport report(std::move(results));
   output.write(report.json());
   if (section) section->write(report.markdown());
@@ -110,6 +125,8 @@ command::Command addStabilityCommand(CLI::App& line) {
   app->add_option("--markdown", options->markdown,
                   "File in which the table is written between the lines <!-- stability PRECISION --> and <!-- end of "
                   "stability PRECISION -->");
+  app->add_option("--outcomes", options->outcomes,
+                  "File, which is replaced, for what came of each run: tests/hard_cases/outcomes_PRECISION.txt");
   return {app, [options] { tryHardCases(*options); }, [options] { return command::wishOf(options->precision); }};
 }
 

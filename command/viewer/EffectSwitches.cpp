@@ -29,16 +29,16 @@ Effect& add(WetCloth& cloth, std::unique_ptr<Effect> effect) { return cloth.add(
 
 }  // namespace
 
-EffectSwitches::EffectSwitches(const command::Scene& scene)
+EffectSwitches::EffectSwitches(const command::Scene& scene, const command::EffectCatalogue& catalogue)
     : m_isDeformable(scene.world == command::WorldKind::deformable), m_commit(m_clock.addPart()) {
-  for (const OfferedEffect& offered : effectMenu(scene)) {
+  for (const command::EffectEntry& offered : catalogue) {
     const bool named = isNamed(scene, offered.key);
     if (!named && !offered.byDefault) continue;
     m_switches.push_back({offered.key, named, named, false, ""});
     Row row{m_clock.addPart(), {}, {}};
     for (const command::ClothScene& cloth : scene.cloths) {
       const command::EffectScene* own = find(cloth, offered.key);
-      row.perCloth.push_back(own != nullptr ? own->addTo : named ? command::AddEffect() : offered.byDefault);
+      row.perCloth.push_back(own != nullptr ? own->addTo : named ? command::AddEffect() : offered.byDefault(scene));
     }
     m_rows.push_back(std::move(row));
   }
@@ -49,7 +49,7 @@ void EffectSwitches::equip(command::Scene& scene) {
   for (Switch& each : m_switches) each.waitsForReset = false;
   for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) {
     std::vector<command::EffectScene>& effects = scene.cloths[cloth].effects;
-    effects = {beginning(Stage::sources), commitEnd()};
+    effects = {beginning(Stage::observe), beginning(Stage::sources), commitEnd()};
     for (std::size_t i = 0; i < m_rows.size(); ++i) {
       if (m_switches[i].isOn && m_rows[i].perCloth[cloth]) effects.push_back(effectScene(i, cloth));
     }

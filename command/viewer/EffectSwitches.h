@@ -2,8 +2,8 @@
 #pragma once
 
 #include "command/viewer/EffectClock.h"
-#include "command/viewer/EffectMenu.h"
 
+#include "command/scene/EffectCatalogue.h"
 #include "command/scene/SceneWorld.h"
 
 #include <cstddef>
@@ -12,8 +12,9 @@
 
 namespace viewer {
 
-/// The effects of a scene's cloths, which can be turned on and off while it runs. An effect that the scene names
-/// belongs to the cloths that it names it for; another one to all of them.
+/// The effects of a scene's cloths, which can be turned on and off while it runs, and all others of the catalogue that
+/// need nothing from the scene. An effect that the scene names belongs to the cloths that it names it for; another one
+/// to all of them.
 class EffectSwitches {
  public:
   struct Switch {
@@ -24,7 +25,8 @@ class EffectSwitches {
     std::string refusal;         ///< why the library did not take it; empty: it did
   };
 
-  explicit EffectSwitches(const command::Scene& scene);
+  explicit EffectSwitches(const command::Scene& scene,
+                          const command::EffectCatalogue& catalogue = command::effectCatalogue());
   EffectSwitches(const EffectSwitches&) = delete;
   EffectSwitches& operator=(const EffectSwitches&) = delete;
 

@@ -51,7 +51,8 @@ Grip::Push pushInPlainBullet(bool isDeformable) {
 
 }  // namespace
 
-LiveScene::LiveScene(command::Scene scene) : m_original(std::move(scene)), m_effects(m_original), m_scene(m_original) {
+LiveScene::LiveScene(command::Scene scene, const command::EffectCatalogue& catalogue)
+    : m_original(std::move(scene)), m_effects(m_original, catalogue), m_scene(m_original) {
   build();
   m_sampler = std::make_unique<command::FrameSampler>(*m_wet);
   note();

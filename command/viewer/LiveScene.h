@@ -25,7 +25,7 @@ enum class Side { wet, plainBullet };
 class LiveScene {
  public:
   /// Throws InputError when the library refuses a cloth or an effect.
-  explicit LiveScene(command::Scene scene);
+  explicit LiveScene(command::Scene scene, const command::EffectCatalogue& catalogue = command::effectCatalogue());
 
   // --- time -------------------------------------------------------------------------------------------------
 

@@ -30,7 +30,7 @@ Json runScene(const Json& scene, const std::vector<std::string>& more = {});
 void expectRefusal(const Outcome& outcome, const std::vector<std::string>& words);
 
 /// The name of this test program's precision, for --precision.
-std::string ownPrecision();
+std::string testedPrecision();
 
 std::string sceneFile(const std::string& name);  ///< examples/scenes/NAME.json
 std::vector<std::string> sceneFiles();           ///< all of examples/scenes

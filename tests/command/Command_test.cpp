@@ -47,7 +47,7 @@ Outcome runWetcloth(const std::vector<std::string>& arguments) {
 }
 
 Json runScene(const std::string& file, const std::vector<std::string>& more) {
-  std::vector<std::string> arguments{"run", file, "--json", "-", "--precision", ownPrecision()};
+  std::vector<std::string> arguments{"run", file, "--json", "-", "--precision", testedPrecision()};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const Outcome outcome = runWetcloth(arguments);
   EXPECT_EQ(outcome.status, 0) << file << ": " << outcome.err;
@@ -68,7 +68,7 @@ void expectRefusal(const Outcome& outcome, const std::vector<std::string>& words
   }
 }
 
-std::string ownPrecision() {
+std::string testedPrecision() {
 #ifdef BT_USE_DOUBLE_PRECISION
   return "float64";
 #else

@@ -37,7 +37,7 @@ std::string whyNothingCanBeDrawn() {
 }
 
 Json renderScene(const std::string& scene, const std::string& out, const std::vector<std::string>& more) {
-  std::vector<std::string> arguments{"render", scene, "--out", out, "--json", "-", "--precision", ownPrecision()};
+  std::vector<std::string> arguments{"render", scene, "--out", out, "--json", "-", "--precision", testedPrecision()};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const Outcome outcome = runWetcloth(arguments);
   if (outcome.status != 0) throw std::runtime_error(outcome.err);

@@ -17,7 +17,7 @@ using namespace cli;
 TEST(AccuracyCommand, TellsPointsFrontOrderAndAdvice) {
   const TemporaryDirectory directory;
   const Outcome outcome = runWetcloth({"accuracy", "--quick", "--study", "absorption", "--out", directory.path("out"),
-                                       "--json", "-", "--precision", ownPrecision()});
+                                       "--json", "-", "--precision", testedPrecision()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const Json result = Json::parse(outcome.out);
   ASSERT_EQ(result.at("studies").size(), 1u);

@@ -37,7 +37,7 @@ Outcome runUntilKilled(double seconds, std::vector<std::string> arguments) {
 class Checkpoint : public testing::Test {
  protected:
   std::vector<std::string> runArguments(const std::string& scene, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> words = {"run", scene, "--precision", ownPrecision(), "--json", "-"};
+    std::vector<std::string> words = {"run", scene, "--precision", testedPrecision(), "--json", "-"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }

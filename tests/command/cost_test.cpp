@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "tests/command/Command.h"
 
-#include "command/scene/SceneKeys.h"
+#include "command/scene/EffectCatalogue.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 using namespace cli;
 
 Json costOf(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{"cost", "--json", "-", "--precision", ownPrecision()};
+  std::vector<std::string> words{"cost", "--json", "-", "--precision", testedPrecision()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   const Outcome outcome = runWetcloth(words);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -62,8 +62,8 @@ TEST(Cost, WithoutASceneEveryEffectThatASceneCanHave) {
   EXPECT_EQ(result.at("world"), "soft_rigid");
   EXPECT_EQ(result.at("steps"), 1);
   const std::vector<std::string> names = namesIn(result);
-  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()),
-            std::set<std::string>(command::keys::effects.keys.begin(), command::keys::effects.keys.end()));
+  const std::vector<std::string> keys = command::effectKeys(command::effectCatalogue()).keys;
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()), std::set<std::string>(keys.begin(), keys.end()));
   expectConsistent(result);
 }
 
@@ -80,7 +80,7 @@ TEST(Cost, SaysAllItsKeys) {
                          "no_effects_ratio", "no_effects_percent", "no_effects_noise_percent",
                          "all_effects_ns_per_node", "all_effects_percent", "all_effects_whole_step_percent"});
   EXPECT_EQ(result.at("scene"), "small");
-  EXPECT_EQ(result.at("precision"), ownPrecision());
+  EXPECT_EQ(result.at("precision"), testedPrecision());
   EXPECT_EQ(result.at("nodes"), 20);
   EXPECT_EQ(result.at("steps"), 4);
   EXPECT_DOUBLE_EQ(result.at("dt").get<double>(), 0.0166667 / 4);  // Bullet's own step, a substep of the scene
@@ -126,7 +126,7 @@ TEST(Cost, PrintsATableAndWritesAFile) {
   const TemporaryDirectory directory;
   const std::string scene = directory.write("scene.json", smallScene().dump());
   const Outcome outcome = runWetcloth(
-      {"cost", scene, "--steps", "4", "--json", directory.path("cost.json"), "--precision", ownPrecision()});
+      {"cost", scene, "--steps", "4", "--json", directory.path("cost.json"), "--precision", testedPrecision()});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   for (const char* word : {"small", "plain Bullet", "no effects", "absorption", "wind", "noise"}) {
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word << " in: " << outcome.out;
@@ -149,7 +149,7 @@ TEST(Cost, RefusesBadInput) {
   expectRefusal(runWetcloth({"cost", good, "--steps", "many"}), {"--steps"});
   expectRefusal(runWetcloth({"cost", good, "--precision", "float16"}), {"--precision", "float32"});
   expectRefusal(runWetcloth({"cost", good, good}), {"wetcloth: "});
-  expectRefusal(runWetcloth({"cost", good, "--json", directory.path("no/cost.json"), "--precision", ownPrecision()}),
+  expectRefusal(runWetcloth({"cost", good, "--json", directory.path("no/cost.json"), "--precision", testedPrecision()}),
                 {"--json"});
 }
 
@@ -161,14 +161,15 @@ TEST(Cost, ANonFiniteStateIsARunThatFailedAndLeavesNoFile) {
   const TemporaryDirectory directory;
   const std::string file = directory.write("scene.json", scene.dump());
   const Outcome outcome =
-      runWetcloth({"cost", file, "--json", directory.path("cost.json"), "--precision", ownPrecision()});
+      runWetcloth({"cost", file, "--json", directory.path("cost.json"), "--precision", testedPrecision()});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.err.find(file + ": the state "), std::string::npos) << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(directory.path("cost.json")));
 }
 
 TEST(Cost, AWorldThatFailsWithoutAnEffectEndsTheMeasurement) {
-  if (ownPrecision() != "float32") GTEST_SKIP() << "no gravity that a scene may have outgrows float64 in a few steps";
+  if (testedPrecision() != "float32")
+    GTEST_SKIP() << "no gravity that a scene may have outgrows float64 in a few steps";
   Json scene = smallScene();
   scene.erase("colliders");
   scene["gravity_m_s2"] = {0, -1e20, 0};  // only the air keeps a speed's square small enough

@@ -203,7 +203,7 @@ TEST(Export, AFullDiskLeavesNothing) {
   for (const auto& [format, out] : formats) {
     const Outcome outcome =  // no file may have more than a kilobyte
         runProgram({"bash", "-c", "trap '' XFSZ; ulimit -f 1; exec \"$@\"", "bash", WETCLOTH_COMMAND, "export", scene,
-                    "--format", format, "--out", directory.path(out), "--precision", ownPrecision()});
+                    "--format", format, "--out", directory.path(out), "--precision", testedPrecision()});
     EXPECT_EQ(outcome.status, 1) << format;
     EXPECT_NE(outcome.err.find("could not be written (File too large)"), std::string::npos) << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;

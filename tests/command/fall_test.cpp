@@ -15,7 +15,7 @@ constexpr double g = 9.81;
 constexpr double substep = 1.0 / 240;
 
 Json fall(std::vector<std::string> more) {
-  std::vector<std::string> arguments{"fall", "--json", "-", "--precision", ownPrecision()};
+  std::vector<std::string> arguments{"fall", "--json", "-", "--precision", testedPrecision()};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const Outcome outcome = runWetcloth(arguments);
   EXPECT_EQ(outcome.status, 0) << outcome.err;

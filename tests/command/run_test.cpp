@@ -31,7 +31,7 @@ TEST(Run, EveryExampleSceneGivesAllKeys) {
     }
     for (const char* key : {"min", "mean", "max"}) EXPECT_TRUE(result.at("saturation").at(key).is_number()) << key;
     EXPECT_EQ(result.at("centre_of_mass").size(), 3u);
-    EXPECT_EQ(result.at("precision"), ownPrecision());
+    EXPECT_EQ(result.at("precision"), testedPrecision());
     EXPECT_EQ(result.at("steps"), std::lround(0.1 / result.at("dt").get<double>()));
     EXPECT_GT(result.at("wall_ms_per_step"), 0);
     EXPECT_GT(result.at("bullet_ms_per_step"), 0);
@@ -181,7 +181,7 @@ TEST(Run, ANonFiniteStateIsARunThatFailed) {
                                            {"integration", "explicit_euler"}};  // and this for float64
   const TemporaryDirectory directory;
   const std::string file = directory.write("scene.json", scene.dump());
-  const Outcome outcome = runWetcloth({"run", file, "--precision", ownPrecision()});
+  const Outcome outcome = runWetcloth({"run", file, "--precision", testedPrecision()});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.err.find(file + ": the state became non-finite in step "), std::string::npos) << outcome.err;
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Zlib
 #include "tests/command/Command.h"
 
+#include "command/scene/EffectCatalogue.h"
 #include "command/scene/SceneKeys.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 #include <string>
+#include <vector>
 
 namespace wetcloth_test::schema_test {
 namespace {
@@ -38,6 +40,18 @@ std::string complaints(const std::vector<std::string>& files) {
   return outcome.out;
 }
 
+/// One for each kind of object that a scene has.
+std::vector<command::KeyTable> keyTables() {
+  std::vector<command::KeyTable> tables;
+  for (const command::KeyTable* table : command::keys::all) tables.push_back(*table);
+  tables.push_back(command::effectKeys(command::effectCatalogue()));
+  for (const command::EffectEntry& entry : command::effectCatalogue()) {
+    tables.push_back(entry.keys);
+    tables.insert(tables.end(), entry.parts.begin(), entry.parts.end());
+  }
+  return tables;
+}
+
 void expectClosedObjects(const Json& schema, const std::string& where) {
   if (schema.is_object() && schema.contains("properties")) {
     EXPECT_EQ(schema.value("additionalProperties", Json(true)), false) << where;
@@ -49,12 +63,12 @@ void expectClosedObjects(const Json& schema, const std::string& where) {
 TEST(Schema, HasTheKeysThatTheReaderKnowsAndNoOthers) {
   const Json schema = readJson(schemaFile);
   std::set<std::string> tables;
-  for (const command::KeyTable* table : command::keys::all) {
-    const Json& object = table->name == "scene" ? schema : schema.at("$defs").at(table->name);
+  for (const command::KeyTable& table : keyTables()) {
+    const Json& object = table.name == "scene" ? schema : schema.at("$defs").at(table.name);
     std::set<std::string> inSchema;
     for (const auto& [key, value] : object.at("properties").items()) inSchema.insert(key);
-    EXPECT_EQ(inSchema, std::set<std::string>(table->keys.begin(), table->keys.end())) << table->name;
-    tables.insert(table->name);
+    EXPECT_EQ(inSchema, std::set<std::string>(table.keys.begin(), table.keys.end())) << table.name;
+    tables.insert(table.name);
   }
   for (const auto& [name, definition] : schema.at("$defs").items()) {
     EXPECT_EQ(tables.count(name), definition.count("properties")) << name;

@@ -13,7 +13,7 @@ namespace {
 using namespace cli;
 
 Json stabilityOf(std::vector<std::string> more) {
-  std::vector<std::string> arguments{"stability", "--json", "-", "--precision", ownPrecision()};
+  std::vector<std::string> arguments{"stability", "--json", "-", "--precision", testedPrecision()};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const Outcome outcome = runWetcloth(arguments);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -28,13 +28,13 @@ std::set<std::string> valuesOf(const Json& cases, const char* key) {
 
 TEST(Stability, JsonHasEveryKey) {
   const Json report = stabilityOf({"--case", "wind_50", "--step", "1/30"});
-  EXPECT_EQ(report.at("precision"), ownPrecision());
+  EXPECT_EQ(report.at("precision"), testedPrecision());
   EXPECT_EQ(report.at("fails"), 0);
   ASSERT_EQ(report.at("cases").size(), 4U);
   for (const Json& one : report.at("cases")) {
     EXPECT_EQ(one.at("name"), "wind_50");
     EXPECT_EQ(one.at("group"), "winds");
-    EXPECT_EQ(one.at("precision"), ownPrecision());
+    EXPECT_EQ(one.at("precision"), testedPrecision());
     EXPECT_DOUBLE_EQ(one.at("step").get<double>(), 1. / 30);
     EXPECT_TRUE(one.at("bound").is_string());
     for (const char* const key : {"plain_bullet", "obvious_way"}) {
@@ -72,11 +72,11 @@ TEST(Stability, TextShowsEachRowAndTheSum) {
 
 TEST(Stability, MarkdownGoesBetweenItsLines) {
   const TemporaryDirectory directory;
-  const std::string name = "stability " + ownPrecision();
+  const std::string name = "stability " + testedPrecision();
   const std::string file =
       directory.write("page.md", "before\n<!-- " + name + " -->\nOLD TABLE\n<!-- end of " + name + " -->\nafter\n");
   const Outcome outcome = runWetcloth(
-      {"stability", "--case", "wind_edge_on", "--step", "1/30", "--precision", ownPrecision(), "--markdown", file});
+      {"stability", "--case", "wind_edge_on", "--step", "1/30", "--precision", testedPrecision(), "--markdown", file});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   std::ifstream stream(file);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -86,10 +86,23 @@ TEST(Stability, MarkdownGoesBetweenItsLines) {
   EXPECT_NE(text.find("| `wind_edge_on` | soft_rigid |"), std::string::npos) << text;
 }
 
+TEST(Stability, OutcomesAreWrittenAnew) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("outcomes.txt", "OLD\n");
+  const Outcome outcome = runWetcloth({"stability", "--case", "wind_edge_on", "--world", "soft_rigid", "--quick",
+                                       "--precision", testedPrecision(), "--outcomes", file});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  std::ifstream stream(file);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  EXPECT_EQ(text.find("OLD"), std::string::npos);
+  EXPECT_NE(text.find("\nwind_edge_on soft_rigid 1/240 holds 1/30 holds\n"), std::string::npos) << text;
+}
+
 TEST(Stability, BadInputIsRefusedInOneLine) {
   expectRefusal(runWetcloth({"stability", "--case", "wind_edge_onn"}), {"--case", "wind_edge_onn", "wind_edge_on"});
   expectRefusal(runWetcloth({"stability", "--group", "wind"}), {"--group", "winds"});
   expectRefusal(runWetcloth({"stability", "--world", "soft"}), {"--world", "soft_rigid"});
+  expectRefusal(runWetcloth({"stability", "--outcomes", "/no/such/folder/x.txt"}), {"--outcomes", "/no/such/folder"});
   expectRefusal(runWetcloth({"stability", "--precision", "half"}), {"--precision", "float32"});
   for (const char* const step : {"0", "-1", "2", "1/0", "1/x", "nan", "1/240s", "/"}) {
     expectRefusal(runWetcloth({"stability", "--step", step}), {"--step", step, "[0.0001, 1]"});

@@ -30,7 +30,8 @@ TEST(View, RefusesBadInputBeforeAnyWindowOpens) {
   const TemporaryDirectory directory;
   const std::string scene = smallSceneIn(directory);
   const auto refuse = [&](const std::string& option, const std::string& value, const std::string& allowed) {
-    expectRefusal(runWetcloth({"view", scene, option, value, "--precision", ownPrecision()}), {option, value, allowed});
+    expectRefusal(runWetcloth({"view", scene, option, value, "--precision", testedPrecision()}),
+                  {option, value, allowed});
   };
   for (const char* size : {"", "0x0", "1280", "1280x", "x720", "-1280x720", "1280x720x2", "99999x720", "wide"}) {
     refuse("--size", size, "from 320 to 8192");
@@ -49,7 +50,7 @@ TEST(View, ARefusalLeavesNoFile) {
   const TemporaryDirectory directory;
   const std::string scene = smallSceneIn(directory);
   expectRefusal(runWetcloth({"view", scene, "--screenshot", directory.path("picture.png"), "--size", "1x1", "--json",
-                             directory.path("state.json"), "--precision", ownPrecision()}),
+                             directory.path("state.json"), "--precision", testedPrecision()}),
                 {"--size"});
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(scene).parent_path())) {

@@ -173,7 +173,7 @@ TEST(WaterCycleCloth, ALaundryLineDripsFastAndThenSlowly) {
 TEST(WaterCycleCloth, TheSummaryHasALineForDripsAndOneForRunOff) {
   const TemporaryDirectory directory;
   const auto summaryOf = [&](const Json& scene) {
-    return runWetcloth({"run", directory.write("scene.json", scene.dump()), "--precision", ownPrecision()}).out;
+    return runWetcloth({"run", directory.write("scene.json", scene.dump()), "--precision", testedPrecision()}).out;
   };
   Json scene = uprightScene({{"dripping", Json::object()}, {"rain", {{"direction", {0, 0, 1}}}}}, 0.2);
   clothOf(scene)["initial_saturation"] = 1;

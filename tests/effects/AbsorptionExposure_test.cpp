@@ -139,6 +139,14 @@ TEST(AbsorptionExposure, ArrayOfTheWrongSizeIsRefusedWhenTheEffectIsAddedOrChang
   EXPECT_EQ(scene.cloth().ledger().held, 0);
 }
 
+TEST(AbsorptionExposure, AnEmptyArrayOrFunctionIsRefused) {
+  const auto refusalOf = [](const Exposure& exposure) {
+    return rejection([&] { Absorption{Bath::parametersOf(exposure)}; });
+  };
+  EXPECT_NE(refusalOf(std::vector<double>()).find("Absorption.exposure.size() = 0"), std::string::npos);
+  EXPECT_NE(refusalOf(Exposure::Function()).find("Absorption.exposure"), std::string::npos);
+}
+
 TEST(AbsorptionExposure, OtherBadParametersAreNamed) {
   Absorption::Parameters velocity;
   velocity.waterVelocity = btVector3(0, btScalar(kNaN), 0);

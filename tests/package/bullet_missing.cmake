@@ -10,7 +10,10 @@ configure_fails("${SOURCE_DIR}" "${WORK_DIR}/build" "-DBULLET_ROOT=${WORK_DIR}/n
                 MATCHES "was not found in BULLET_ROOT, ${WORK_DIR}/nowhere" ${advice})
 
 # The system's, hidden
-configure_fails("${SOURCE_DIR}" "${WORK_DIR}/build" "-DCMAKE_IGNORE_PATH=${BULLET_INCLUDE}"
+set(ENV{BULLET_ROOT})
+file(MAKE_DIRECTORY "${WORK_DIR}/empty")
+configure_fails("${SOURCE_DIR}" "${WORK_DIR}/build" "-DCMAKE_FIND_ROOT_PATH=${WORK_DIR}/empty"
+                -DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY
                 MATCHES "was not found in the system" ${advice})
 
 # Headers and libraries that are no libraries

@@ -3,8 +3,14 @@
 cmake_minimum_required(VERSION 3.21)
 include("${FACTS}")
 
-# BULLET_ROOT of the person who runs the tests must not decide what they find.
-unset(ENV{BULLET_ROOT})
+# Projects that a test configures find what this build found, where it found it, unless the test says otherwise. What
+# the person who runs the tests has in the environment must not decide.
+foreach(name IN ITEMS Bullet_ROOT BULLET_ROOT_DIR BulletSoftBody_ROOT Bullet_DIR)
+  unset(ENV{${name}})
+endforeach()
+set(ENV{BULLET_ROOT} "${BULLET_PREFIX}")
+set(ENV{CMAKE_PREFIX_PATH} "${PREFIX_PATH}")
+set(ENV{CMAKE_TOOLCHAIN_FILE} "${TOOLCHAIN_FILE}")
 file(MAKE_DIRECTORY "${WORK_DIR}")
 
 # "" for float32, "-float64" for float64
@@ -13,6 +19,18 @@ function(precision_suffix precision result)
   if(NOT precision STREQUAL "float32")
     set(${result} "-${precision}" PARENT_SCOPE)
   endif()
+endfunction()
+
+# make_prefix(<prefix> <precision>): this build's Bullet under the names that Bullet's own install gives
+function(make_prefix prefix precision)
+  file(REMOVE_RECURSE "${prefix}")
+  file(MAKE_DIRECTORY "${prefix}/include" "${prefix}/lib")
+  file(CREATE_LINK "${BULLET_INCLUDE}" "${prefix}/include/bullet" SYMBOLIC)
+  foreach(library IN LISTS BULLET_LIBRARIES_${precision})
+    get_filename_component(name "${library}" NAME)
+    string(REPLACE "-float64" "" name "${name}")
+    file(CREATE_LINK "${library}" "${prefix}/lib/${name}" SYMBOLIC)
+  endforeach()
 endfunction()
 
 # try(<status> <output> <command>...): both streams as one text
@@ -66,13 +84,18 @@ function(configure source_dir build_dir)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
-# configure_fails(<source dir> <build dir> <argument>... MATCHES <regex>...)
-function(configure_fails source_dir build_dir)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "MATCHES")
-  configure_command("${source_dir}" "${build_dir}" command ${arg_UNPARSED_ARGUMENTS})
-  try(status text ${command})
+# must_fail(<command>... MATCHES <regex>...)
+function(must_fail)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "" "MATCHES")
+  try(status text ${arg_UNPARSED_ARGUMENTS})
   if(status EQUAL 0)
-    message(FATAL_ERROR "Configured although it should not:\n${text}")
+    message(FATAL_ERROR "Succeeded although it should not:\n${text}")
   endif()
   must_match("${text}" ${arg_MATCHES})
+endfunction()
+
+# configure_fails(<source dir> <build dir> <argument>... MATCHES <regex>...)
+function(configure_fails source_dir build_dir)
+  configure_command("${source_dir}" "${build_dir}" command ${ARGN})
+  must_fail(${command})
 endfunction()

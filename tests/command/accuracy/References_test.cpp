@@ -2,8 +2,8 @@
 // What the studies compare with, against physics: these share no code with the library.
 
 #include "command/accuracy/BarenblattSpread.h"
-#include "command/accuracy/SwingingCloth.h"
 #include "command/accuracy/MassSpringReference.h"
+#include "command/accuracy/SwingingCloth.h"
 #include "tests/support/BulletWorld.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ namespace {
 
 using accuracy::BarenblattSpread;
 using accuracy::ClothRecord;
-using accuracy::SwingingCloth;
 using accuracy::MassSpringReference;
+using accuracy::SwingingCloth;
 
 constexpr double kPi = 3.14159265358979323846;
 

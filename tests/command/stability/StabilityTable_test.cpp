@@ -3,10 +3,13 @@
 // other steps are the command's business.
 
 #include "command/stability/StabilityTable.h"
+#include "command/cli/Errors.h"
 #include "command/stability/CaseRun.h"
 #include "command/stability/CaseScene.h"
 #include "command/stability/SceneMeter.h"
 #include "command/stability/StabilityRun.h"
+#include "command/stability/StoredOutcomes.h"
+#include "tests/command/Command.h"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +18,8 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace wetcloth_test::stability_table_test {
 namespace {
@@ -30,8 +35,14 @@ const stability::HardCase& hardCaseNamed(const std::string& name) {
 
 class StabilityTable : public testing::TestWithParam<std::string> {};
 
-// Where a bound does not hold, Bullet alone must fail it, too.
-TEST_P(StabilityTable, NoBoundFailsThatPlainBulletHolds) {
+const stability::StoredOutcomes& storedOutcomes() {
+  static const stability::StoredOutcomes outcomes = stability::StoredOutcomes::read(
+      WETCLOTH_SOURCE_DIR "/tests/hard_cases/outcomes_" + command::nameOf(command::ownPrecision) + ".txt");
+  return outcomes;
+}
+
+// Where a bound does not hold, Bullet alone must fail it, too; and what is known to hold must hold.
+TEST_P(StabilityTable, NoBoundFailsThatPlainBulletHoldsOrThatIsKnownToHold) {
   const stability::HardCase& hardCase = hardCaseNamed(GetParam());
   for (const stability::World world : hardCase.worlds) {
     // Other than the deformable ones, the two differ in their solver of rigid bodies alone.
@@ -40,6 +51,7 @@ TEST_P(StabilityTable, NoBoundFailsThatPlainBulletHolds) {
                                                             stability::Comparisons::whereNeeded);
     EXPECT_NE(result.verdict(), stability::CaseResult::Verdict::fails)
         << nameOf(world) << ": " << result.ours.nearest().bound << " " << result.ours.nearest().ratio;
+    EXPECT_EQ(storedOutcomes().complaintAbout(result), "");
   }
 }
 
@@ -156,9 +168,52 @@ INSTANTIATE_TEST_SUITE_P(, StabilityOfNaiveMethods,
 
 TEST(StabilityCases, TheTextbooksCubicMissesContacts) {
   const stability::HardCase& hardCase = hardCaseNamed("cubic_coplanar");
-  const stability::CaseMeter textbook =
-      stability::runCase(hardCase, stability::World::none, stability::Way::naive, 0);
+  const stability::CaseMeter textbook = stability::runCase(hardCase, stability::World::none, stability::Way::naive, 0);
   EXPECT_EQ(textbook.marginOf("missed contacts"), HUGE_VAL);
+}
+
+// --- what is stored of it -----------------------------------------------------------------------------------------
+
+TEST(StoredOutcomes, AreThereForTheWholeTable) {
+  stability::Selection everything;
+  for (const stability::Combination& one : stability::combinationsOf(everything)) {
+    stability::CaseResult holds{one.hardCase, one.world, one.step, {}, {}, {}};
+    EXPECT_EQ(storedOutcomes().complaintAbout(holds), "");
+  }
+  EXPECT_EQ(storedOutcomes().count(), stability::combinationsOf(everything).size());
+}
+
+TEST(StoredOutcomes, TellWhatIsWorseThanBefore) {
+  const stability::HardCase& hardCase = hardCaseNamed("wind_50");
+  const auto world = stability::World::softRigid;
+  const stability::CaseMeter holds;
+  stability::CaseMeter fails;
+  fails.compare("speed", 2, 1);
+  const stability::CaseResult good{&hardCase, world, kStabilityStep, holds, holds, {}};
+  const stability::CaseResult bad{&hardCase, world, kStabilityStep, fails, holds, {}};
+  const stability::CaseResult bullets{&hardCase, world, kStabilityStep, fails, fails, {}};
+  const command::TemporaryDirectory directory;
+  const auto complaint = [&](const stability::CaseResult& before, const stability::CaseResult& now) {
+    const std::string file = directory.write("outcomes.txt", stability::StoredOutcomes({before}).text());
+    return stability::StoredOutcomes::read(file).complaintAbout(now);
+  };
+  EXPECT_EQ(complaint(good, good), "");
+  EXPECT_EQ(complaint(good, bullets), "wind_50 in soft_rigid at 1/60 s: bullet_fails, stored: holds");
+  EXPECT_EQ(complaint(bullets, bad), "wind_50 in soft_rigid at 1/60 s: fails, stored: bullet_fails");
+  EXPECT_EQ(complaint(bullets, bullets), "");
+  EXPECT_EQ(complaint(bullets, good), "") << "better is no complaint";
+  const stability::CaseResult other{&hardCase, world, 1. / 30, holds, holds, {}};
+  EXPECT_EQ(complaint(good, other), "wind_50 in soft_rigid at 1/30 s: not stored");
+}
+
+TEST(StoredOutcomes, AFileThatIsNoneIsRefused) {
+  const command::TemporaryDirectory directory;
+  for (const char* const text : {"wind_50 soft_rigid 1/60 hold\n", "wind_50 soft_rigid 1/60\n", "wind_50\n",
+                                 "wind_50 soft_rigid 1/60 holds 1/60 holds\n"}) {
+    const std::string file = directory.write("outcomes.txt", text);
+    EXPECT_THROW(stability::StoredOutcomes::read(file), command::InputError) << text;
+  }
+  EXPECT_THROW(stability::StoredOutcomes::read(directory.path("none.txt")), command::InputError);
 }
 
 // --- the table's own measure ------------------------------------------------------------------------------------

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Zlib
+#include "tests/command/MadeUpEffect.h"
 #include "tests/command/viewer/ViewerScene.h"
 
 #include "command/run/StateHash.h"
@@ -98,8 +99,8 @@ TEST(EffectSwitches, AnEffectOfTheSceneStaysWithItsCloth) {
   run(live, 5);
   EXPECT_GT(live.world().cloths()[0]->meanSaturation(), 0);
   EXPECT_EQ(live.world().cloths()[1]->meanSaturation(), 0);
-  EXPECT_EQ(live.world().cloths()[0]->effects().size(), 2u + 3 * 2u);
-  EXPECT_EQ(live.world().cloths()[1]->effects().size(), 2u + 1 * 2u);
+  EXPECT_EQ(live.world().cloths()[0]->effects().size(), 3u + 3 * 2u);
+  EXPECT_EQ(live.world().cloths()[1]->effects().size(), 3u + 1 * 2u);
 }
 
 TEST(EffectSwitches, EachEffectThatIsOnTakesTimeAndTheyAreNoLongerThanTheStep) {
@@ -136,6 +137,20 @@ TEST(EffectSwitches, ScenesOfTheExamplesBeginWithTheirOwnEffects) {
   }
   run(live, 3);
   EXPECT_EQ(live.failure(), "");
+}
+
+TEST(EffectSwitches, AnEffectThatIsInTheCatalogueAloneIsOffered) {
+  command::Scene scene = hangingTowel();
+  LiveScene live(scene, command::catalogueWithDew());
+  const std::size_t dew = indexOf(live, "dew");
+  EXPECT_FALSE(live.effects().list()[dew].isOn);
+  live.turnEffect(dew, true);
+  run(live, 2);
+  EXPECT_GT(live.waterHeld(), 0);
+  live.turnEffect(dew, false);
+  const double held = live.waterHeld();
+  run(live, 2);
+  EXPECT_EQ(live.waterHeld(), held);
 }
 
 }  // namespace

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Zlib
-#include "command/scene/EffectReaders.h"
+#include "command/scene/EffectGroups.h"
 
 #include "command/scene/ReadParameters.h"
 
 namespace command {
+namespace {
 
 using wetcloth::Cling;
 using wetcloth::WaterDrag;
 using wetcloth::Wind;
 
-AddEffect readWind(JsonCursor cursor, const EffectContext&) {
+AddEffect readWind(const JsonCursor& cursor, const EffectContext&) {
   using Law = Wind::Law;
   using Integration = Wind::Integration;
   static const std::vector<std::pair<std::string, Law>> laws{
       {"quadratic", Law::quadratic}, {"linear", Law::linear}, {"paper", Law::paper}};
   static const std::vector<std::pair<std::string, Integration>> integrations{
       {"semi_implicit", Integration::semiImplicit}, {"explicit_euler", Integration::explicitEuler}};
-  cursor.expectObject(keys::wind);
   Wind::Parameters parameters;
   if (readMode(cursor) == Mode::paper) parameters.law = Law::paper;
   parameters.velocity = readWindField(cursor);
@@ -30,9 +30,23 @@ AddEffect readWind(JsonCursor cursor, const EffectContext&) {
   return addEffect<Wind>(parameters);
 }
 
-AddEffect readWaterDrag(JsonCursor cursor, const EffectContext& context) {
-  cursor.expectObject(keys::waterDrag);
-  requireWater(cursor, context.scene);
+EffectEntry wind() {
+  EffectEntry entry;
+  entry.key = "wind";
+  entry.about =
+      "`velocity_m_s`, or `gust`: `{\"mean_m_s\", \"amplitude_m_s\", \"period_s\"}`; `[0, 0, 0]` is still air, which "
+      "resists; `\"mode\": \"paper\"` is n (n . wind), which knows neither area nor the cloth's own motion";
+  entry.keys = {"wind",
+                {"mode", "velocity_m_s", "gust", "law", "integration", "air_density_kg_m3", "drag_coefficient",
+                 "skin_friction", "linear_drag_n_s_m3", "paper_force_n"}};
+  entry.read = readWind;
+  entry.byDefault = addDefault<Wind>;
+  entry.example = {{"velocity_m_s", {2, 0, 1}}};
+  entry.needs.faces = true;
+  return entry;
+}
+
+AddEffect readWaterDrag(const JsonCursor& cursor, const EffectContext&) {
   WaterDrag::Parameters parameters;
   readNumber(cursor, "drag_coefficient", Range::notNegative(), parameters.dragCoefficient);
   readNumber(cursor, "skin_friction", Range::notNegative(), parameters.skinFriction);
@@ -40,8 +54,19 @@ AddEffect readWaterDrag(JsonCursor cursor, const EffectContext& context) {
   return addEffect<WaterDrag>(parameters);
 }
 
-AddEffect readCling(JsonCursor cursor, const EffectContext&) {
-  cursor.expectObject(keys::cling);
+EffectEntry waterDrag() {
+  EffectEntry entry;
+  entry.key = "water_drag";
+  entry.about = "resistance and buoyancy below the scene's `water`";
+  entry.keys = {"waterDrag", {"drag_coefficient", "skin_friction", "fibre_density_kg_m3"}};
+  entry.read = readWaterDrag;
+  entry.byDefault = addDefault<WaterDrag>;
+  entry.needs.water = true;
+  entry.needs.faces = true;
+  return entry;
+}
+
+AddEffect readCling(const JsonCursor& cursor, const EffectContext&) {
   Cling::Parameters parameters;
   readNumber(cursor, "adhesion_pa", Range::notNegative(), parameters.adhesion);
   readNumber(cursor, "shear_strength_pa", Range::notNegative(), parameters.shearStrength);
@@ -54,5 +79,21 @@ AddEffect readCling(JsonCursor cursor, const EffectContext&) {
   }
   return addEffect<Cling>(parameters);
 }
+
+EffectEntry cling() {
+  EffectEntry entry;
+  entry.key = "cling";
+  entry.about = "holds wet nodes on colliders until they are pulled off";
+  entry.keys = {"cling",
+                {"adhesion_pa", "shear_strength_pa", "minimum_saturation", "peak_saturation", "flooded_share"}};
+  entry.read = readCling;
+  entry.byDefault = addDefault<Cling>;
+  entry.needs.contacts = true;
+  return entry;
+}
+
+}  // namespace
+
+EffectCatalogue forceEffects() { return {wind(), waterDrag(), cling()}; }
 
 }  // namespace command

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Zlib
-#include "command/scene/EffectReaders.h"
+#include "command/scene/EffectGroups.h"
 
 #include "command/scene/ReadParameters.h"
 
@@ -9,6 +9,7 @@
 #include <vector>
 
 namespace command {
+namespace {
 
 using wetcloth::Absorption;
 using wetcloth::ContactWetting;
@@ -16,17 +17,30 @@ using wetcloth::Immersion;
 using wetcloth::Rain;
 using wetcloth::Splash;
 
-namespace {
+const KeyTable& streamSphereKeys() {
+  static const KeyTable keys{"streamSphere", {"centre_m", "radius_m"}};
+  return keys;
+}
+
+const KeyTable& streamConeKeys() {
+  static const KeyTable keys{"streamCone", {"apex_m", "half_angle_deg", "reach_m"}};
+  return keys;
+}
+
+const KeyTable& filmKeys() {
+  static const KeyTable keys{"film", {"collider", "water_kg"}};
+  return keys;
+}
 
 constexpr double radiansPerDegree = SIMD_RADS_PER_DEG;
 
 Splash::Sphere readStreamSphere(JsonCursor cursor) {
-  cursor.expectObject(keys::streamSphere);
+  cursor.expectObject(streamSphereKeys());
   return {readVector(cursor.at("centre_m")), cursor.at("radius_m").number(Range::positive())};
 }
 
 Splash::Cone readStreamCone(JsonCursor cursor) {
-  cursor.expectObject(keys::streamCone);
+  cursor.expectObject(streamConeKeys());
   Splash::Cone cone;
   cone.apex = readVector(cursor.at("apex_m"));
   cone.halfAngle = radiansPerDegree * cursor.at("half_angle_deg").number(Range{0, 90, false, "in (0, 90)", false});
@@ -45,7 +59,7 @@ std::vector<Film> readFilms(const JsonCursor& cursor, const Scene& scene) {
   std::vector<Film> films;
   std::set<int> seen;
   for (JsonCursor film : cursor.elements()) {
-    film.expectObject(keys::film);
+    film.expectObject(filmKeys());
     const int collider = film.at("collider").integer(0, static_cast<int>(scene.colliders.size()) - 1);
     if (!seen.insert(collider).second) film.at("collider").complain("has a film already");
     films.push_back({static_cast<std::size_t>(collider), film.at("water_kg").number(Range::notNegative())});
@@ -64,13 +78,10 @@ bool readCloths(const JsonCursor& cursor, const EffectContext& context) {
   return true;
 }
 
-}  // namespace
-
-AddEffect readAbsorption(JsonCursor cursor, const EffectContext& context) {
+AddEffect readAbsorption(const JsonCursor& cursor, const EffectContext& context) {
   using Law = Absorption::Law;
   static const std::vector<std::pair<std::string, Law>> laws{
       {"exponential", Law::exponential}, {"forward_euler", Law::forwardEuler}, {"ramp", Law::ramp}};
-  cursor.expectObject(keys::absorption);
   Absorption::Parameters parameters;
   if (readMode(cursor) == Mode::paper) parameters = Absorption::Parameters::paper();
   if (const auto exposure = cursor.find("exposure"))
@@ -84,14 +95,35 @@ AddEffect readAbsorption(JsonCursor cursor, const EffectContext& context) {
   return addEffect<Absorption>(parameters);
 }
 
-AddEffect readImmersion(JsonCursor cursor, const EffectContext& context) {
-  cursor.expectObject(keys::immersion);
-  requireWater(cursor, context.scene);
-  return addEffect<Immersion>({});
+EffectEntry absorption() {
+  EffectEntry entry;
+  entry.key = "absorption";
+  entry.about =
+      "`exposure` is a number, an array with one for each node, or `{\"below_m\": y}`; `\"mode\": \"paper\"` is the "
+      "ramp of the paper's Table II";
+  entry.keys = {"absorption",
+                {"mode", "exposure", "law", "water_velocity_m_s", "conserves_momentum", "ramp_duration_s"}};
+  entry.read = readAbsorption;
+  entry.byDefault = addDefault<Absorption>;
+  entry.water = WaterRole::brings;
+  return entry;
 }
 
-AddEffect readRain(JsonCursor cursor, const EffectContext&) {
-  cursor.expectObject(keys::rain);
+AddEffect readImmersion(const JsonCursor&, const EffectContext&) { return addEffect<Immersion>({}); }
+
+EffectEntry immersion() {
+  EffectEntry entry;
+  entry.key = "immersion";
+  entry.about = "nodes below the scene's `water` soak; `{}` does";
+  entry.keys = {"immersion", {}};
+  entry.read = readImmersion;
+  entry.byDefault = addDefault<Immersion>;
+  entry.needs.water = true;
+  entry.water = WaterRole::brings;
+  return entry;
+}
+
+AddEffect readRain(const JsonCursor& cursor, const EffectContext&) {
   Rain::Parameters parameters;
   readDirection(cursor, "direction", parameters.direction);
   readNumber(cursor, "flux_kg_m2_s", Range::notNegative(), parameters.flux);
@@ -100,8 +132,23 @@ AddEffect readRain(JsonCursor cursor, const EffectContext&) {
   return addEffect<Rain>(parameters);
 }
 
-AddEffect readSplash(JsonCursor cursor, const EffectContext&) {
-  cursor.expectObject(keys::splash);
+EffectEntry rain() {
+  EffectEntry entry;
+  entry.key = "rain";
+  entry.about = "1 mm/h is 1/3600 kg/m^2/s; what the cloth cannot hold runs off";
+  entry.keys = {"rain", {"direction", "flux_kg_m2_s", "speed_m_s", "self_shelter"}};
+  entry.read = readRain;
+  entry.byDefault = [](const Scene& scene) {
+    Rain::Parameters parameters;
+    parameters.direction = -scene.up();
+    return addEffect<Rain>(parameters);
+  };
+  entry.needs.faces = true;
+  entry.water = WaterRole::brings;
+  return entry;
+}
+
+AddEffect readSplash(const JsonCursor& cursor, const EffectContext&) {
   Splash::Parameters parameters;
   if (cursor.exactlyOneOf({"sphere", "cone"}) == "sphere") {
     parameters.region = readStreamSphere(cursor.at("sphere"));
@@ -113,8 +160,22 @@ AddEffect readSplash(JsonCursor cursor, const EffectContext&) {
   return addEffect<Splash>(parameters);
 }
 
-AddEffect readContactWetting(JsonCursor cursor, const EffectContext& context) {
-  cursor.expectObject(keys::contactWetting);
+EffectEntry splash() {
+  EffectEntry entry;
+  entry.key = "splash";
+  entry.about =
+      "in a `sphere`, `{\"centre_m\", \"radius_m\"}`, or a `cone`, `{\"apex_m\", \"half_angle_deg\", \"reach_m\"}`; "
+      "this region and `velocity_m_s` must be there; in a cone the flux is that at its far end";
+  entry.keys = {"splash", {"sphere", "cone", "velocity_m_s", "flux_kg_m2_s"}};
+  entry.parts = {streamSphereKeys(), streamConeKeys()};
+  entry.read = readSplash;
+  entry.example = {{"sphere", {{"centre_m", {0.5, 0.5, 0}}, {"radius_m", 0.2}}}, {"velocity_m_s", {0, 0, 5}}};
+  entry.needs.faces = true;
+  entry.water = WaterRole::brings;
+  return entry;
+}
+
+AddEffect readContactWetting(const JsonCursor& cursor, const EffectContext& context) {
   ContactWetting::Parameters parameters;
   if (const auto cloths = cursor.find("cloths")) parameters.cloths = readCloths(*cloths, context);
   readNumber(cursor, "rate_kg_m2_s", Range::notNegative(), parameters.rate);
@@ -126,5 +187,22 @@ AddEffect readContactWetting(JsonCursor cursor, const EffectContext& context) {
     return cloth.add<ContactWetting>(placed);
   };
 }
+
+EffectEntry contactWetting() {
+  EffectEntry entry;
+  entry.key = "contact_wetting";
+  entry.about = "takes up from wet colliders, exchanges with other cloths";
+  entry.keys = {"contactWetting", {"films", "cloths", "rate_kg_m2_s"}};
+  entry.parts = {filmKeys()};
+  entry.read = readContactWetting;
+  entry.example = {{"films", {{{"collider", 0}, {"water_kg", 1}}}}};
+  entry.needs.contacts = true;
+  entry.water = WaterRole::brings;
+  return entry;
+}
+
+}  // namespace
+
+EffectCatalogue sourceEffects() { return {absorption(), immersion(), rain(), splash(), contactWetting()}; }
 
 }  // namespace command

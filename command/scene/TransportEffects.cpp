@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Zlib
-#include "command/scene/EffectReaders.h"
+#include "command/scene/EffectGroups.h"
 
 #include "command/scene/ReadParameters.h"
 
 namespace command {
+namespace {
 
 using wetcloth::Diffusion;
 using wetcloth::Seepage;
 
-AddEffect readDiffusion(JsonCursor cursor, const EffectContext&) {
+AddEffect readDiffusion(const JsonCursor& cursor, const EffectContext&) {
   using Method = Diffusion::Method;
   static const std::vector<std::pair<std::string, Method>> methods{{"factored", Method::factored},
                                                                    {"explicit_substeps", Method::explicitSubsteps},
                                                                    {"conjugate_gradients", Method::conjugateGradients}};
-  cursor.expectObject(keys::diffusion);
   Diffusion::Parameters parameters;
   readNumber(cursor, "warp_diffusivity_m2_s", Range::positive(), parameters.warpDiffusivity);
   readNumber(cursor, "weft_diffusivity_m2_s", Range::positive(), parameters.weftDiffusivity);
@@ -24,12 +24,40 @@ AddEffect readDiffusion(JsonCursor cursor, const EffectContext&) {
   return addEffect<Diffusion>(parameters);
 }
 
-AddEffect readSeepage(JsonCursor cursor, const EffectContext&) {
-  cursor.expectObject(keys::seepage);
+EffectEntry diffusion() {
+  EffectEntry entry;
+  entry.key = "diffusion";
+  entry.about = "`method`: `factored`, `explicit_substeps`, `conjugate_gradients`; `tolerance` is of the last";
+  entry.keys = {"diffusion",
+                {"warp_diffusivity_m2_s", "weft_diffusivity_m2_s", "exponent", "warp", "method", "tolerance"}};
+  entry.read = readDiffusion;
+  entry.byDefault = addDefault<Diffusion>;
+  entry.needs.faces = true;
+  entry.water = WaterRole::moves;
+  return entry;
+}
+
+AddEffect readSeepage(const JsonCursor& cursor, const EffectContext&) {
   Seepage::Parameters parameters;
   readNumber(cursor, "speed_m_s", Range::notNegative(), parameters.speed);
   readNumber(cursor, "exponent", Range{1, 100, true, "in [1, 100]"}, parameters.exponent);
   return addEffect<Seepage>(parameters);
 }
+
+EffectEntry seepage() {
+  EffectEntry entry;
+  entry.key = "seepage";
+  entry.about = "down along the cloth, under gravity";
+  entry.keys = {"seepage", {"speed_m_s", "exponent"}};
+  entry.read = readSeepage;
+  entry.byDefault = addDefault<Seepage>;
+  entry.needs.faces = true;
+  entry.water = WaterRole::moves;
+  return entry;
+}
+
+}  // namespace
+
+EffectCatalogue transportEffects() { return {diffusion(), seepage()}; }
 
 }  // namespace command

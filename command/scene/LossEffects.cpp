@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Zlib
-#include "command/scene/EffectReaders.h"
+#include "command/scene/EffectGroups.h"
 
 #include "command/scene/ReadParameters.h"
 
 namespace command {
+namespace {
 
 using wetcloth::Dripping;
 using wetcloth::Drying;
 
-AddEffect readDripping(JsonCursor cursor, const EffectContext&) {
-  cursor.expectObject(keys::dripping);
+AddEffect readDripping(const JsonCursor& cursor, const EffectContext&) {
   Dripping::Parameters parameters;
   readNumber(cursor, "holding_saturation", Range::fraction(), parameters.holdingSaturation);
   readNumber(cursor, "time_constant_s", Range::positive(), parameters.timeConstant);
@@ -18,8 +18,19 @@ AddEffect readDripping(JsonCursor cursor, const EffectContext&) {
   return addEffect<Dripping>(parameters);
 }
 
-AddEffect readDrying(JsonCursor cursor, const EffectContext& context) {
-  cursor.expectObject(keys::drying);
+EffectEntry dripping() {
+  EffectEntry entry;
+  entry.key = "dripping";
+  entry.about = "from low points; a level cloth drips everywhere";
+  entry.keys = {"dripping", {"holding_saturation", "time_constant_s", "drop_mass_kg", "slope_tolerance"}};
+  entry.read = readDripping;
+  entry.byDefault = addDefault<Dripping>;
+  entry.needs.faces = true;
+  entry.water = WaterRole::takes;
+  return entry;
+}
+
+AddEffect readDrying(const JsonCursor& cursor, const EffectContext& context) {
   Drying::Parameters parameters;
   readNumber(cursor, "temperature_c", Range{0, 60, true, "in [0, 60]"}, parameters.temperature);
   readNumber(cursor, "relative_humidity", Range::fraction(), parameters.relativeHumidity);
@@ -31,5 +42,23 @@ AddEffect readDrying(JsonCursor cursor, const EffectContext& context) {
     parameters.exposure = readExposure(*exposure, context.cloth.nodeCount());
   return addEffect<Drying>(parameters);
 }
+
+EffectEntry drying() {
+  EffectEntry entry;
+  entry.key = "drying";
+  entry.about = "`exposure` as of `absorption`, the share that air reaches; `velocity_m_s` or `gust` as of `wind`";
+  entry.keys = {"drying",
+                {"temperature_c", "relative_humidity", "velocity_m_s", "gust", "self_cooling", "critical_saturation",
+                 "sides", "exposure"}};
+  entry.read = readDrying;
+  entry.byDefault = addDefault<Drying>;
+  entry.needs.faces = true;
+  entry.water = WaterRole::takes;
+  return entry;
+}
+
+}  // namespace
+
+EffectCatalogue lossEffects() { return {dripping(), drying()}; }
 
 }  // namespace command

@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: Zlib
+#include "FakeBullet.h"
+
+void btSoftBody::setTotalMass(btScalar, bool) {}
