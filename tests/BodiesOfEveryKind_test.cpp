@@ -91,13 +91,13 @@ TEST_P(Tetrahedra, RunLikeABodyBuiltHeavy) {
   wetcloth::WetCloth& wetCloth = wet.add(wetted.body());
   wetCloth.setHeld(unevenWater(wetCloth));
   for (BodyScene* each : {&wetted, &fresh, &dry}) {
-    if (each->bullet.isDeformable()) {
-      each->bullet.addForce(each->body(), std::make_unique<btDeformableNeoHookeanForce>(btScalar(20), btScalar(40)));
+    if (each->bullet().isDeformable()) {
+      each->bullet().addForce(each->body(), std::make_unique<btDeformableNeoHookeanForce>(btScalar(20), btScalar(40)));
     }
-    each->bullet.step(1);  // the first step takes the rest lengths
+    each->bullet().step(1);  // the first step takes the rest lengths
     // It is squeezed and let go.
     for (int i = 0; i < 8; ++i) each->body().m_nodes[i].m_x *= btVector3(btScalar(0.8), 1, 1);
-    each->bullet.step(60);
+    each->bullet().step(60);
   }
   const std::vector<btScalar> expected = stateOf(fresh.body());
   // The deformable world's solver stops at a residual of its own.

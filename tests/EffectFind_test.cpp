@@ -12,9 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::effect_find_test {
 
 namespace {
 
@@ -148,4 +146,4 @@ TEST_F(EffectFind, RangesAreThoseOfAStandardContainer) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::effect_find_test

@@ -13,9 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace wetcloth_test {
-
-using namespace core;
+namespace wetcloth_test::observe_stage_test {
 
 namespace {
 
@@ -147,4 +145,4 @@ TEST(ObserveStageOf, CollisionAudit) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::observe_stage_test

@@ -104,7 +104,7 @@ TEST_P(ClusterMassesAreCached, RunsLikeABodyBuiltHeavy) {
   for (BodyScene* each : {&scene, &fresh, &dry}) {
     for (int c = 0; c < each->body().m_clusters.size(); ++c) each->body().m_clusters[c]->m_ndamping = btScalar(0.1);
     for (int i = 0; i < each->body().m_nodes.size(); i += 3) each->body().addVelocity(btVector3(0, 0, 1), i);
-    each->bullet.step(20);
+    each->bullet().step(20);
   }
   const std::vector<btScalar> expected = stateOf(fresh.body());
   // 20 steps amplify the rounding of the caches.

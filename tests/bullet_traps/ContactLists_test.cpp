@@ -57,8 +57,8 @@ struct Watch {
   int rigidBefore = 0, rigidAt = 0, softBefore = 0, softAt = 0;
 
   explicit Watch(Sheets& sheets) : body(sheets.lower.get()) {
-    sheets.bullet().world().setInternalTickCallback(preTick, this, true);
-    sheets.bullet().world().setInternalTickCallback(tick, this, false);
+    sheets.bullet.world().setInternalTickCallback(preTick, this, true);
+    sheets.bullet.world().setInternalTickCallback(tick, this, false);
   }
   int rigid() const {
     return body->m_rcontacts.size() + body->m_nodeRigidContacts.size() + body->m_faceRigidContacts.size();
@@ -82,10 +82,10 @@ class ContactLists : public InEveryWorld {};
 TEST_P(ContactLists, OfRigidBodiesAreFullInTheTickAndStillInTheNextPreTick) {
   Sheets sheets(GetParam(), contactFlags(GetParam()));
   const Watch watch(sheets);
-  sheets.bullet().step(1);
+  sheets.bullet.step(1);
   EXPECT_EQ(watch.rigidBefore, 0);
   EXPECT_EQ(watch.rigidAt, 16);
-  sheets.bullet().step(1);
+  sheets.bullet.step(1);
   EXPECT_EQ(watch.rigidBefore, 16);
 }
 
@@ -93,9 +93,9 @@ TEST_P(ContactLists, OfRigidBodiesAreFullInTheTickAndStillInTheNextPreTick) {
 TEST_P(ContactLists, OfSoftBodiesAreEmptyInTheTickOfTheDeformableWorld) {
   Sheets sheets(GetParam(), contactFlags(GetParam()));
   const Watch watch(sheets);
-  sheets.bullet().step(240);
+  sheets.bullet.step(240);
   EXPECT_GT(watch.softBefore, 0);
-  EXPECT_EQ(watch.softAt > 0, !sheets.bullet().isDeformable());
+  EXPECT_EQ(watch.softAt > 0, !sheets.bullet.isDeformable());
 }
 
 // What another world would solve is listed all the same, never solved, and never emptied: it grows step by step.
@@ -103,9 +103,9 @@ TEST_P(ContactLists, GrowWithoutEndWithAnotherWorldsFlags) {
   const bool isDeformable = Sheets(GetParam(), 0).bullet.isDeformable();
   Sheets sheets(GetParam(), contactFlags(isDeformable ? WorldKind::softRigid : WorldKind::deformable));
   const Watch watch(sheets);
-  sheets.bullet().step(10);
+  sheets.bullet.step(10);
   EXPECT_GT(watch.rigid(), 100);
-  sheets.bullet().step(240);
+  sheets.bullet.step(240);
   EXPECT_LT(double(sheets.lower->m_nodes[0].m_x.y()), -1) << "and the cloth falls through the floor";
 }
 
@@ -114,7 +114,7 @@ WETCLOTH_IN_EVERY_WORLD(ContactLists);
 TEST(ContactListsOfTheDeformableWorld, NeedAFlagForNodesOrTriangles) {
   for (const int more : {0, int(Flags::SDF_RDN), int(Flags::SDF_RDF)}) {
     Sheets sheets(WorldKind::deformable, Flags::SDF_RD | more);
-    sheets.bullet().step(240);
+    sheets.bullet.step(240);
     EXPECT_EQ(double(sheets.lower->m_nodes[0].m_x.y()) < -1, more == 0) << more;
   }
 }
@@ -123,15 +123,15 @@ TEST(ContactListsOfTheDeformableWorld, NeedAFlagForNodesOrTriangles) {
 TEST(ContactListsOfTheDeformableWorld, OfSoftBodiesMakeNoTwoRunsAlike) {
   Sheets once(WorldKind::deformable, contactFlags(WorldKind::deformable));
   Sheets again(WorldKind::deformable, contactFlags(WorldKind::deformable));
-  once.bullet().step(240);
-  again.bullet().step(240);
+  once.bullet.step(240);
+  again.bullet.step(240);
   EXPECT_FALSE(sameBits(stateOf(*once.upper), stateOf(*again.upper)));
 }
 
 // So an effect that looks at them before the prediction sees contacts of the day when the body fell asleep.
 TEST(ContactListsOfTheDeformableWorld, OfASleeperStay) {
   Sheets sheets(WorldKind::deformable, Flags::SDF_RD | Flags::SDF_RDN);
-  sheets.bullet().step(2000);
+  sheets.bullet.step(2000);
   ASSERT_FALSE(sheets.lower->isActive());
   EXPECT_EQ(sheets.lower->m_nodeRigidContacts.size(), 16);
 }

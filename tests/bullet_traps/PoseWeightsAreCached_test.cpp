@@ -92,7 +92,7 @@ TEST_P(PoseWeightsAreCached, RunsLikeABodyBuiltHeavy) {
     cloth.setHeld(unevenWater(cloth));
     for (BodyScene* each : {&scene, &fresh}) {
       for (int i = 0; i < each->body().m_nodes.size(); i += 3) each->body().addVelocity(btVector3(0, 2, 0), i);
-      each->bullet.step(40);
+      each->bullet().step(40);
     }
     // 40 steps amplify the rounding of the weights.
     EXPECT_LT(largestDifference(stateOf(scene.body()), stateOf(fresh.body())), kIsDouble ? 1e-8 : 2e-2) << pinned;

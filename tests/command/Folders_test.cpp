@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::folders_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,4 +57,4 @@ TEST(CommandFolders, IncludeOnlyThoseBelow) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::folders_test

@@ -16,7 +16,7 @@
 #include <variant>
 #include <vector>
 
-namespace wetcloth_test {
+namespace wetcloth_test::parameters_test {
 namespace {
 
 using namespace wetcloth;
@@ -694,7 +694,7 @@ TEST(WaterDragParameters, WakeAClothInTheWater) {
   EXPECT_TRUE(water.wakes(sample.cloth(), step));
 }
 
-TEST(ContactWettingParameters, HaveTheFilmsAsTheyAreNow) {
+TEST(ContactWettingFilms, AreGivenAsTheyAreNow) {
   Sample sample;
   auto& wetting = sample.cloth().add<ContactWetting>(Trial<ContactWetting>::after(sample));
   sample.scene.step(2 * kSteps);
@@ -718,4 +718,4 @@ TEST(CollisionAuditParameters, KeepTheTotalsWhenTheTierChanges) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::parameters_test

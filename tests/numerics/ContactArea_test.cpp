@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace wetcloth_test {
+namespace wetcloth_test::contact_area_test {
 
 namespace {
 
@@ -25,4 +25,4 @@ TEST(ContactArea, IsAThirdOfTheTrianglesOrTheMassOverTheArealDensity) {
 }
 
 }  // namespace
-}  // namespace wetcloth_test
+}  // namespace wetcloth_test::contact_area_test
