@@ -27,6 +27,8 @@ namespace wetcloth_test::effect_catalogue_test {
 namespace {
 
 using namespace command;
+using cli::smallScene;
+using cli::TemporaryDirectory;
 
 /// A scene in which each effect finds what it needs.
 Scene sceneForAll() {
@@ -127,7 +129,7 @@ TEST(EffectCatalogue, AnEffectIsNamedAsItsClass) {
     one.cloths[0].effects = {{entry.key, entry.byDefault(one), entry.water}};
     const SceneWorld world(one);
     ASSERT_EQ(world.cloths()[0]->effects().size(), 1U) << entry.key;
-    EXPECT_EQ(keyOf(world.cloths()[0]->effects()[0]->name()), entry.key);
+    EXPECT_EQ(keyOf(world.cloths()[0]->effects()[0].name()), entry.key);
   }
 }
 

@@ -192,7 +192,7 @@ TEST(StoredOutcomes, TellWhatIsWorseThanBefore) {
   const stability::CaseResult good{&hardCase, world, kStabilityStep, holds, holds, {}};
   const stability::CaseResult bad{&hardCase, world, kStabilityStep, fails, holds, {}};
   const stability::CaseResult bullets{&hardCase, world, kStabilityStep, fails, fails, {}};
-  const command::TemporaryDirectory directory;
+  const cli::TemporaryDirectory directory;
   const auto complaint = [&](const stability::CaseResult& before, const stability::CaseResult& now) {
     const std::string file = directory.write("outcomes.txt", stability::StoredOutcomes({before}).text());
     return stability::StoredOutcomes::read(file).complaintAbout(now);
@@ -207,7 +207,7 @@ TEST(StoredOutcomes, TellWhatIsWorseThanBefore) {
 }
 
 TEST(StoredOutcomes, AFileThatIsNoneIsRefused) {
-  const command::TemporaryDirectory directory;
+  const cli::TemporaryDirectory directory;
   for (const char* const text : {"wind_50 soft_rigid 1/60 hold\n", "wind_50 soft_rigid 1/60\n", "wind_50\n",
                                  "wind_50 soft_rigid 1/60 holds 1/60 holds\n"}) {
     const std::string file = directory.write("outcomes.txt", text);
