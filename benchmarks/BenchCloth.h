@@ -3,10 +3,7 @@
 
 #include <bullet_wetcloth/bullet_wetcloth.h>
 
-#include <BulletSoftBody/btSoftBodyHelpers.h>
-#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
-#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
-#include <btBulletDynamicsCommon.h>
+#include "tests/support/BodyScene.h"
 
 #include <algorithm>
 #include <chrono>
@@ -35,46 +32,43 @@ class BenchCloth {
  public:
   enum class Mesh { ours, bullets };
 
-  explicit BenchCloth(int side, Mesh mesh = Mesh::ours) {
-    m_body = mesh == Mesh::ours ? ourPatch(side) : bulletsPatch(side);
-    m_body->m_cfg.piterations = 10;
-    m_world.addSoftBody(m_body.get());
-  }
-  ~BenchCloth() {
-    m_wetWorld.reset();
-    m_world.removeSoftBody(m_body.get());
+  explicit BenchCloth(int side, Mesh mesh = Mesh::ours)
+      : m_scene(wetcloth_test::WorldKind::softRigid, mesh == Mesh::ours ? ourPatch(side) : bulletsPatch(side),
+                btVector3(0, -10, 0)) {
+    body().m_cfg.piterations = 10;
   }
   BenchCloth(const BenchCloth&) = delete;
   BenchCloth& operator=(const BenchCloth&) = delete;
 
-  btSoftBody& body() { return *m_body; }
+  btSoftBody& body() { return m_scene.body(); }
   wetcloth::WetCloth& wet() {
     if (!m_wetWorld) {
-      m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_world, wetcloth::Hook::manual);
-      m_wetWorld->add(*m_body);
-      m_world.setInternalTickCallback(onPreTick, this, true);
+      m_wetWorld = std::make_unique<wetcloth::WetClothWorld>(m_scene.world(), wetcloth::Hook::manual);
+      m_wetWorld->add(body());
+      m_scene.world().setInternalTickCallback(onPreTick, this, true);
     }
     return m_wetWorld->cloths().front();
   }
   /// Time spent in our part of the last step [s].
   double ourSeconds() const { return m_ourSeconds; }
-  void step() { m_world.stepSimulation(btScalar(1) / 60, 0); }
+  void step() { m_scene.bullet().step(1, btScalar(1) / 60); }
 
  private:
-  std::unique_ptr<btSoftBody> ourPatch(int side) {
-    wetcloth::ClothPatch patch;
-    patch.columns = patch.rows = side;
+  static wetcloth_test::BodyBuilder ourPatch(int side) {
+    wetcloth::ClothPatch patch = wetcloth_test::squarePatch(side);
     patch.pinnedCorners = {wetcloth::ClothPatch::Corner::bottomLeft, wetcloth::ClothPatch::Corner::bottomRight};
-    return patch.build(m_world.getWorldInfo());
+    return [patch](btSoftBodyWorldInfo& info) { return patch.build(info); };
   }
   /// As in Bullet's own demos: nearly twice the links, in an order that makes each wait for the one before.
-  std::unique_ptr<btSoftBody> bulletsPatch(int side) {
-    std::unique_ptr<btSoftBody> body(btSoftBodyHelpers::CreatePatch(m_world.getWorldInfo(), btVector3(0, 0, 0),
-                                                                    btVector3(1, 0, 0), btVector3(0, 0, 1),
-                                                                    btVector3(1, 0, 1), side, side, 1 + 2, true));
-    body->generateBendingConstraints(2);
-    body->setTotalMass(btScalar(0.15));
-    return body;
+  static wetcloth_test::BodyBuilder bulletsPatch(int side) {
+    return [side](btSoftBodyWorldInfo& info) {
+      std::unique_ptr<btSoftBody> body(btSoftBodyHelpers::CreatePatch(info, btVector3(0, 0, 0), btVector3(1, 0, 0),
+                                                                      btVector3(0, 0, 1), btVector3(1, 0, 1), side,
+                                                                      side, 1 + 2, true));
+      body->generateBendingConstraints(2);
+      body->setTotalMass(btScalar(0.15));
+      return body;
+    };
   }
 
   static void onPreTick(btDynamicsWorld* world, btScalar dt) {
@@ -82,12 +76,7 @@ class BenchCloth {
     cloth.m_ourSeconds = secondsOf([&] { cloth.m_wetWorld->preTick(dt); });
   }
 
-  btSoftBodyRigidBodyCollisionConfiguration m_configuration;
-  btCollisionDispatcher m_dispatcher{&m_configuration};
-  btDbvtBroadphase m_broadphase;
-  btSequentialImpulseConstraintSolver m_solver;
-  btSoftRigidDynamicsWorld m_world{&m_dispatcher, &m_broadphase, &m_solver, &m_configuration};
-  std::unique_ptr<btSoftBody> m_body;
+  wetcloth_test::BodyScene m_scene;
   std::unique_ptr<wetcloth::WetClothWorld> m_wetWorld;
   double m_ourSeconds = 0;
 };

@@ -3,6 +3,10 @@
 // test program; Bullet's own go through btAlignedAlloc and are not counted. Sanitizers bring an operator new of their
 // own, so there the count is left out.
 
+#include "tests/support/BodyScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Patches.h"
 #include "tests/support/WaterCycle.h"
 
 #include <cstdlib>
@@ -42,9 +46,9 @@ namespace wetcloth_test::allocation_test {
 namespace {
 
 // Water that comes and goes fast, so that in each step every effect has something to do.
-void addWaterCycle(CoreScene& scene, wetcloth::WetCloth& cloth) {
-  water_cycle::giveWater(scene.bullet.info(), btScalar(0.4));
-  water_cycle::letTouch(scene.bullet, scene.body());
+void addWaterCycle(BodyScene& scene, wetcloth::WetCloth& cloth) {
+  water_cycle::giveWater(scene.bullet().info(), btScalar(0.4));
+  water_cycle::letTouch(scene.bullet(), scene.body());
   cloth.add<wetcloth::Immersion>();
   cloth.add<wetcloth::Rain>({btVector3(1, -1, 1), 0.01, 5, true});
   cloth.add<wetcloth::Splash>(
@@ -77,7 +81,7 @@ TEST_P(NoAllocation, TheCounterCounts) {
 }
 
 TEST_P(NoAllocation, InTheStepAfterItsFirstTurns) {
-  CoreScene scene(GetParam(), hangingPatch(10));
+  BodyScene scene(GetParam(), hangingPatch(10));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 3));
   cloth.add<wetcloth::Absorption>({[](const btVector3& x, const btVector3&) { return x.x() > 0.5 ? 1.0 : 0.5; }});
@@ -107,7 +111,7 @@ TEST_P(NoAllocation, InTheStepAfterItsFirstTurns) {
 }
 
 TEST_P(NoAllocation, InFillingAVertexBuffer) {
-  CoreScene scene(GetParam(), hangingPatch(10));
+  BodyScene scene(GetParam(), hangingPatch(10));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   const wetcloth::WetCloth& cloth = wet.add(scene.body());
   std::vector<float> floats(1000);

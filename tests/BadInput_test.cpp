@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Zlib
 // Bad input is refused where it is given, with the field's name and the value, and leaves everything as it was.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Patches.h"
 
 #include <limits>
 #include <stdexcept>
@@ -45,7 +50,7 @@ class BadInput : public InEveryWorld {
     EXPECT_TRUE(sameBits(stateOf(scene.body()), state));
     EXPECT_EQ(cloth.ledger().held, held);
     EXPECT_EQ(cloth.effects().size(), effects);
-    scene.bullet.step(1);
+    scene.bullet().step(1);
     EXPECT_TRUE(isFinite(scene.body()));
   }
 
@@ -55,7 +60,7 @@ class BadInput : public InEveryWorld {
     expectRefused([&] { cloth.add<E>(parameters); }, field, value);
   }
 
-  CoreScene scene;
+  BodyScene scene;
   wetcloth::WetClothWorld wet;
   wetcloth::WetCloth& cloth;
 };
@@ -165,21 +170,21 @@ TEST_P(BadInput, NodesThatAreNotThere) {
 TEST_P(BadInput, Bodies) {
   EXPECT_NE(refusalOf([&] { wet.add(nullptr); }), "");
   EXPECT_NE(refusalOf([&] { wet.add(scene.body()); }), "") << "added twice";
-  const std::unique_ptr<btSoftBody> stranger = squarePatch(3).build(scene.bullet.info());
+  const std::unique_ptr<btSoftBody> stranger = squarePatch(3).build(scene.bullet().info());
   EXPECT_NE(refusalOf([&] { wet.add(*stranger); }), "") << "not in the world";
   EXPECT_NE(refusalOf([&] { wet.remove(*stranger); }), "");
   EXPECT_EQ(wet.find(*stranger), nullptr);
   EXPECT_EQ(wet.cloths().size(), 1u);
-  CoreScene elsewhere(GetParam(), squarePatch(3));
+  BodyScene elsewhere(GetParam(), squarePatch(3));
   EXPECT_NE(refusalOf([&] { wet.add(elsewhere.body()); }), "") << "in another world";
   EXPECT_EQ(wet.cloths().size(), 1u);
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(wet.find(scene.body()), &cloth);
 }
 
 TEST_P(BadInput, MassesThatAreNotFinite) {
   for (const btScalar bad : {kScalarNaN, std::numeric_limits<btScalar>::infinity(), btScalar(-2)}) {
-    CoreScene other(GetParam(), squarePatch(3));
+    BodyScene other(GetParam(), squarePatch(3));
     other.body().m_nodes[4].m_im = bad;
     wetcloth::WetClothWorld otherWet(other.world());
     const std::string message = refusalOf([&] { otherWet.add(other.body()); });
@@ -193,7 +198,7 @@ TEST_P(BadInput, FabricFields) {
     std::vector<std::pair<double, std::string>> values = {{-1.5, "-1.5"}, {kNaN, "nan"}, {kInfinity, "inf"}};
     if (zeroIsBad) values.push_back({0, "0"});
     for (const auto& [value, text] : values) {
-      CoreScene other(GetParam(), squarePatch(3));
+      BodyScene other(GetParam(), squarePatch(3));
       wetcloth::WetClothWorld otherWet(other.world());
       wetcloth::Fabric fabric;
       fabric.*field = value;
@@ -201,7 +206,7 @@ TEST_P(BadInput, FabricFields) {
       EXPECT_NE(message.find(name), std::string::npos) << message;
       EXPECT_NE(message.find(text), std::string::npos) << message;
       EXPECT_TRUE(otherWet.cloths().empty());
-      other.bullet.step(1);
+      other.bullet().step(1);
     }
   };
   refused(&wetcloth::Fabric::capacity, "capacity", true);

@@ -2,7 +2,14 @@
 // What goes wrong inside a step cannot be refused: an application's function returns NaN, a triangle has no area, a
 // step has no length. Nothing that is not finite may reach Bullet.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 #include <limits>
 
@@ -22,11 +29,11 @@ TEST_P(BadValuesInTheStep, AnExposureFunctionIsClamped) {
     double effective;
   };
   for (const Case& each : {Case{kNaN, 0}, Case{7, 1}, Case{-3, 0}, Case{HUGE_VAL, 1}, Case{-HUGE_VAL, 0}}) {
-    CoreScene scene(GetParam(), hangingPatch(4));
+    BodyScene scene(GetParam(), hangingPatch(4));
     wetcloth::WetClothWorld wet(scene.world());
     wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
     cloth.add<wetcloth::Absorption>({[&each](const btVector3&, const btVector3&) { return each.value; }});
-    scene.bullet.step(240);
+    scene.bullet().step(240);
     EXPECT_NEAR(cloth.meanSaturation(), 1 - std::exp(-each.effective), 1e-5) << each.value;
     EXPECT_TRUE(isFinite(scene.body()));
   }
@@ -34,10 +41,10 @@ TEST_P(BadValuesInTheStep, AnExposureFunctionIsClamped) {
 
 TEST_P(BadValuesInTheStep, AWindFunctionThatIsNotFiniteIsNoWind) {
   for (const btScalar bad : {kScalarNaN, kScalarInfinity, -kScalarInfinity}) {
-    CoreScene scene(GetParam(), sailPatch(4), btVector3(0, 0, 0));
+    BodyScene scene(GetParam(), sailPatch(4), btVector3(0, 0, 0));
     wetcloth::WetClothWorld wet(scene.world());
     wet.add(scene.body()).add<wetcloth::Wind>({[bad](const btVector3&, double) { return btVector3(0, 0, bad); }});
-    scene.bullet.step(60);
+    scene.bullet().step(60);
     EXPECT_TRUE(isFinite(scene.body()));
     // At rest in still air; the links' rounding moves nodes by micrometres per second.
     EXPECT_LT(largestSpeed(scene.body()), 1e-4) << bad;
@@ -46,14 +53,14 @@ TEST_P(BadValuesInTheStep, AWindFunctionThatIsNotFiniteIsNoWind) {
 
 // An application's function that throws is a failing effect like any other.
 TEST_P(BadValuesInTheStep, AFunctionThatThrowsTakesItsEffectAway) {
-  CoreScene scene(GetParam(), hangingPatch(4));
+  BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   int messages = 0;
   wet.setLog([&messages](const std::string&) { ++messages; });
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   cloth.add<wetcloth::Wind>({[](const btVector3&, double) -> btVector3 { throw std::runtime_error("no forecast"); }});
   cloth.add<wetcloth::Absorption>();
-  EXPECT_NO_THROW(scene.bullet.step(10));
+  EXPECT_NO_THROW(scene.bullet().step(10));
   EXPECT_EQ(messages, 1);
   EXPECT_EQ(cloth.effects().size(), 1u);
   EXPECT_GT(cloth.ledger().held, 0);
@@ -76,7 +83,7 @@ std::unique_ptr<btSoftBody> degenerate(btSoftBodyWorldInfo& info) {
 
 TEST_P(BadValuesInTheStep, ATriangleWithoutAreaFeelsNothing) {
   for (const auto law : {wetcloth::Wind::Law::quadratic, wetcloth::Wind::Law::linear, wetcloth::Wind::Law::paper}) {
-    CoreScene scene(GetParam(), degenerate, btVector3(0, 0, 0));
+    BodyScene scene(GetParam(), degenerate, btVector3(0, 0, 0));
     wetcloth::WetClothWorld wet(scene.world());
     wetcloth::WetCloth& cloth = wet.add(scene.body());
     wetcloth::Wind::Parameters wind;
@@ -88,17 +95,17 @@ TEST_P(BadValuesInTheStep, ATriangleWithoutAreaFeelsNothing) {
     cloth.add<wetcloth::Absorption>({[](const btVector3&, const btVector3& normal) {
       return std::isfinite(double(normal.length2())) ? 1.0 : 0.0;
     }});
-    scene.bullet.step(1);  // later the wind will have moved two corners out of line
+    scene.bullet().step(1);  // later the wind will have moved two corners out of line
     EXPECT_GT(scene.body().m_nodes[2].m_v.z(), 0.001) << "the sound triangle feels the wind";
     for (const int i : {3, 4, 5}) EXPECT_EQ(scene.body().m_nodes[i].m_v.length(), 0) << i;
     EXPECT_GT(cloth.saturation(5), 0) << "its normal is finite too";
-    scene.bullet.step(30);
+    scene.bullet().step(30);
     EXPECT_TRUE(isFinite(scene.body()));
   }
 }
 
 TEST_P(BadValuesInTheStep, AStepWithoutLengthIsIgnored) {
-  CoreScene scene(GetParam(), hangingPatch(4));
+  BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
   cloth.add<wetcloth::Absorption>();
@@ -118,16 +125,16 @@ TEST_P(BadValuesInTheStep, AStepWithoutLengthIsIgnored) {
 
 // Through Bullet, which steps backwards when asked to: no water leaves or comes, and nothing breaks.
 TEST_P(BadValuesInTheStep, ThroughBulletTooAStepBackwardsAddsNoWater) {
-  CoreScene scene(GetParam(), squarePatch(4));
+  BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
   cloth.add<wetcloth::Absorption>();
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   const double before = cloth.ledger().held;
-  scene.bullet.step(1, btScalar(-1) / 240);
-  scene.bullet.step(1, 0);
+  scene.bullet().step(1, btScalar(-1) / 240);
+  scene.bullet().step(1, 0);
   EXPECT_EQ(cloth.ledger().held, before);
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_GT(cloth.ledger().held, before);
   EXPECT_TRUE(isFinite(scene.body()));
 }

@@ -2,7 +2,16 @@
 // Anchors and tetrahedra: a body that got wet runs like one that was built with the wet masses.
 // (Clusters, poses and the deformable world's anchors are among the traps.)
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
+#include "tests/support/RigidBody.h"
+#include "tests/support/UnevenWater.h"
 
 #include <BulletSoftBody/btDeformableNeoHookeanForce.h>
 #include <BulletSoftBody/btSoftBodyHelpers.h>
@@ -21,13 +30,13 @@ std::unique_ptr<btSoftBody> cloth(btSoftBodyWorldInfo& info, bool heavy) {
 struct Anchored {
   Anchored(WorldKind kind, bool heavy)
       : scene(kind, [heavy](btSoftBodyWorldInfo& info) { return cloth(info, heavy); }),
-        box(scene.bullet, std::make_unique<btBoxShape>(btVector3(btScalar(0.1), btScalar(0.1), btScalar(0.1))),
+        box(scene.bullet(), std::make_unique<btBoxShape>(btVector3(btScalar(0.1), btScalar(0.1), btScalar(0.1))),
             btScalar(0.05), btVector3(btScalar(-0.3), 0, btScalar(0.5))) {
     scene.body().appendAnchor(5, &box.body(), true);
     scene.body().appendAnchor(11, &box.body(), true);
     box.body().setLinearVelocity(btVector3(-2, 1, 0));
   }
-  CoreScene scene;
+  BodyScene scene;
   RigidBody box;
 };
 
@@ -40,7 +49,7 @@ TEST_P(BodiesOfEveryKind, AnAnchoredClothRunsLikeOneBuiltHeavy) {
   wetcloth::WetClothWorld wet(wetted.scene.world());
   wetcloth::WetCloth& wetCloth = wet.add(wetted.scene.body());
   wetCloth.setHeld(unevenWater(wetCloth));
-  for (Anchored* each : {&wetted, &fresh, &dry}) each->scene.bullet.step(60);
+  for (Anchored* each : {&wetted, &fresh, &dry}) each->scene.bullet().step(60);
   const std::vector<btScalar> expected = stateOf(fresh.scene.body());
   // Inverse masses round twice in one of them; 60 steps amplify that.
   const double tolerance = kIsDouble ? 1e-8 : 1e-2;
@@ -74,36 +83,36 @@ class Tetrahedra : public InEveryWorld {};
 
 TEST_P(Tetrahedra, RunLikeABodyBuiltHeavy) {
   const auto make = [](bool heavy) { return [heavy](btSoftBodyWorldInfo& info) { return cube(info, heavy); }; };
-  CoreScene wetted(GetParam(), make(false));
-  CoreScene fresh(GetParam(), make(true));
-  CoreScene dry(GetParam(), make(false));
+  BodyScene wetted(GetParam(), make(false));
+  BodyScene fresh(GetParam(), make(true));
+  BodyScene dry(GetParam(), make(false));
   ASSERT_EQ(wetted.body().m_tetras.size(), 5);
   wetcloth::WetClothWorld wet(wetted.world());
   wetcloth::WetCloth& wetCloth = wet.add(wetted.body());
   wetCloth.setHeld(unevenWater(wetCloth));
-  for (CoreScene* each : {&wetted, &fresh, &dry}) {
-    if (each->bullet.isDeformable()) {
-      each->bullet.addForce(each->body(), std::make_unique<btDeformableNeoHookeanForce>(btScalar(20), btScalar(40)));
+  for (BodyScene* each : {&wetted, &fresh, &dry}) {
+    if (each->bullet().isDeformable()) {
+      each->bullet().addForce(each->body(), std::make_unique<btDeformableNeoHookeanForce>(btScalar(20), btScalar(40)));
     }
-    each->bullet.step(1);  // the first step takes the rest lengths
+    each->bullet().step(1);  // the first step takes the rest lengths
     // It is squeezed and let go.
     for (int i = 0; i < 8; ++i) each->body().m_nodes[i].m_x *= btVector3(btScalar(0.8), 1, 1);
-    each->bullet.step(60);
+    each->bullet().step(60);
   }
   const std::vector<btScalar> expected = stateOf(fresh.body());
   // The deformable world's solver stops at a residual of its own.
-  const double tolerance = wetted.bullet.isDeformable() ? 1e-3 : (kIsDouble ? 1e-8 : 1e-2);
+  const double tolerance = wetted.bullet().isDeformable() ? 1e-3 : (kIsDouble ? 1e-8 : 1e-2);
   EXPECT_LT(largestDifference(stateOf(wetted.body()), expected), tolerance);
   EXPECT_GT(largestDifference(stateOf(dry.body()), expected), 10 * tolerance) << "masses matter here";
 }
 
 TEST_P(Tetrahedra, CanAbsorbAndFeelWind) {
-  CoreScene scene(GetParam(), [](btSoftBodyWorldInfo& info) { return cube(info, false); });
+  BodyScene scene(GetParam(), [](btSoftBodyWorldInfo& info) { return cube(info, false); });
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& wetCloth = wet.add(scene.body(), fabricOf(1, 1));
   wetCloth.add<wetcloth::Absorption>();
   if (scene.body().m_faces.size() > 0) wetCloth.add<wetcloth::Wind>({btVector3(0, 0, 5)});
-  scene.bullet.step(120);
+  scene.bullet().step(120);
   EXPECT_TRUE(isFinite(scene.body()));
   EXPECT_NEAR(wetCloth.meanSaturation(), 1 - std::exp(-0.5), 1e-5);
   if (scene.body().m_faces.size() > 0) {

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Bodies leave a world, are deleted, and come back, whether or not the application told us.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Patches.h"
 
 namespace wetcloth_test::body_comes_and_goes_test {
 
@@ -17,23 +23,23 @@ class BodyComesAndGoes : public InEveryWorld {};
 
 // Memory checkers watch this one.
 TEST_P(BodyComesAndGoes, DeletedWhileWeKnowIt) {
-  CoreScene scene(GetParam(), hangingPatch(4));
+  BodyScene scene(GetParam(), hangingPatch(4));
   std::vector<std::string> messages;
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
   addEverything(wet.add(scene.body()));
-  scene.bullet.step(5);
+  scene.bullet().step(5);
   scene.deleteBody();
-  scene.bullet.step(5);
+  scene.bullet().step(5);
   EXPECT_EQ(messages.size(), 1u);
 }
 
 TEST_P(BodyComesAndGoes, DeletedAndWeLeaveWithoutAnotherStep) {
-  CoreScene scene(GetParam(), hangingPatch(4));
+  BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog({});
   addEverything(wet.add(scene.body()));
-  scene.bullet.step(5);
+  scene.bullet().step(5);
   scene.deleteBody();
 }
 
@@ -62,35 +68,35 @@ TEST_P(BodyComesAndGoes, DeletedWithOthersLeftBehind) {
 }
 
 TEST_P(BodyComesAndGoes, RemovedAndAddedAgainItGoesOn) {
-  CoreScene scene(GetParam(), hangingPatch(4));
+  BodyScene scene(GetParam(), hangingPatch(4));
   std::vector<std::string> messages;
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
   cloth.add<wetcloth::Absorption>();
-  scene.bullet.step(24);
+  scene.bullet().step(24);
   const double before = cloth.ledger().held;
-  scene.bullet.remove(scene.body());
-  scene.bullet.step(24);
+  scene.bullet().remove(scene.body());
+  scene.bullet().step(24);
   EXPECT_EQ(cloth.ledger().held, before) << "no time passes for a body that is not in the world";
   EXPECT_EQ(messages.size(), 1u) << "said once";
-  scene.bullet.add(scene.body());
-  scene.bullet.step(24);
+  scene.bullet().add(scene.body());
+  scene.bullet().step(24);
   EXPECT_NEAR(cloth.meanSaturation(), 1 - std::exp(-0.2), 1e-5);
   EXPECT_TRUE(isFinite(scene.body()));
 }
 
 // The right order: forget the cloth, then delete the body.
 TEST_P(BodyComesAndGoes, ForgottenThenDeleted) {
-  CoreScene scene(GetParam(), hangingPatch(4));
+  BodyScene scene(GetParam(), hangingPatch(4));
   int messages = 0;
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog([&messages](const std::string&) { ++messages; });
   addEverything(wet.add(scene.body()));
-  scene.bullet.step(5);
+  scene.bullet().step(5);
   wet.remove(scene.body());
   scene.deleteBody();
-  scene.bullet.step(5);
+  scene.bullet().step(5);
   EXPECT_TRUE(wet.cloths().empty());
   EXPECT_EQ(messages, 0);
 }

@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Zlib
 // A body may be cut or refined while it is wet: no water is lost, one message says so, and the world goes on.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 namespace wetcloth_test::cut_and_refine_test {
 
@@ -36,8 +44,8 @@ class CutAndRefine : public testing::TestWithParam<std::tuple<WorldKind, Knife>>
 
 TEST_P(CutAndRefine, KeepsTheWater) {
   const auto [kind, knife] = GetParam();
-  CoreScene scene(kind, hangingPatch(6));
-  scene.addDeformableSprings(20, 0.1);
+  BodyScene scene(kind, hangingPatch(6));
+  scene.addBulletSprings(20, 0.1);
   wetcloth::WetClothWorld wet(scene.world());
   std::vector<std::string> messages;
   wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
@@ -45,7 +53,7 @@ TEST_P(CutAndRefine, KeepsTheWater) {
   wetcloth::Absorption& soak = cloth.add<wetcloth::Absorption>(
       {[](const btVector3& x, const btVector3&) { return double(x.x()) < 0.5 ? 1.0 : 0.25; }});
   cloth.add<wetcloth::Wind>({btVector3(0, 0, 1)});
-  scene.bullet.step(30);
+  scene.bullet().step(30);
   adjust(soak, [](auto& p) { p.exposure = 0.0; });
   const wetcloth::Ledger before = cloth.ledger();
   const int nodes = scene.body().m_nodes.size();
@@ -53,7 +61,7 @@ TEST_P(CutAndRefine, KeepsTheWater) {
 
   knife.cut(scene.body());
   ASSERT_GT(scene.body().m_nodes.size(), nodes) << "the knife cuts";
-  scene.bullet.step(1);
+  scene.bullet().step(1);
 
   EXPECT_EQ(cloth.nodeCount(), scene.body().m_nodes.size());
   const wetcloth::Ledger after = cloth.ledger();
@@ -65,7 +73,7 @@ TEST_P(CutAndRefine, KeepsTheWater) {
   EXPECT_EQ(messages.size(), 1u) << (messages.empty() ? "" : messages.back());
 
   adjust(soak, [](auto& p) { p.exposure = 1.0; });
-  scene.bullet.step(60);
+  scene.bullet().step(60);
   EXPECT_TRUE(isFinite(scene.body()));
   EXPECT_EQ(messages.size(), 1u) << "said once: " << messages.back();
   EXPECT_GT(cloth.ledger().held, before.held) << "it goes on soaking";
@@ -80,7 +88,7 @@ TEST_P(CutAndRefine, OverfillsNoNode) {
   const auto [kind, knife] = GetParam();
   for (const double capacity : {0.84, 83.0}) {
     for (const int pattern : {0, 1, 2}) {
-      CoreScene scene(kind, squarePatch(6));
+      BodyScene scene(kind, squarePatch(6));
       wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
       wet.setLog({});
       wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(capacity, 1));
@@ -109,7 +117,7 @@ TEST_P(CutAndRefine, OverfillsNoNode) {
 // With every effect, springs too, and per-link or per-node parameters that fit no more.
 TEST_P(CutAndRefine, EveryEffectGoesOnOrSaysWhyNot) {
   const auto [kind, knife] = GetParam();
-  CoreScene scene(kind, hangingPatch(6));
+  BodyScene scene(kind, hangingPatch(6));
   wetcloth::WetClothWorld wet(scene.world());
   std::vector<std::string> messages;
   wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
@@ -117,9 +125,9 @@ TEST_P(CutAndRefine, EveryEffectGoesOnOrSaysWhyNot) {
   cloth.add<wetcloth::Absorption>({std::vector<double>(std::size_t(cloth.nodeCount()), 0.5)});
   cloth.add<wetcloth::Wind>({btVector3(0, 0, 1)});
   cloth.add<wetcloth::HookeSprings>(springsOf(200, 5));
-  scene.bullet.step(30);
+  scene.bullet().step(30);
   knife.cut(scene.body());
-  scene.bullet.step(60);
+  scene.bullet().step(60);
   EXPECT_TRUE(isFinite(scene.body()));
   EXPECT_GE(messages.size(), 1u);
   EXPECT_LE(messages.size(), 4u) << "the cut, and at most one per effect that had to go";
@@ -129,16 +137,16 @@ TEST_P(CutAndRefine, EveryEffectGoesOnOrSaysWhyNot) {
 // something: by the effect, or, once it is gone, by its own stiffness again.
 TEST_P(CutAndRefine, NoLinkIsLeftWithoutStrength) {
   const auto [kind, knife] = GetParam();
-  CoreScene scene(kind, hangingPatch(6));
+  BodyScene scene(kind, hangingPatch(6));
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog({});
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   wetcloth::HookeSprings::Parameters springs;
   springs.perLink.assign(std::size_t(scene.body().m_links.size()), 200);
   wetcloth::HookeSprings& added = cloth.add<wetcloth::HookeSprings>(springs);
-  scene.bullet.step(3);
+  scene.bullet().step(3);
   knife.cut(scene.body());
-  scene.bullet.step(3);
+  scene.bullet().step(3);
   EXPECT_TRUE(isFinite(scene.body()));
   if (!cloth.effects().empty()) cloth.remove(added);
   for (int i = 0; i < scene.body().m_links.size(); ++i) {
@@ -148,7 +156,7 @@ TEST_P(CutAndRefine, NoLinkIsLeftWithoutStrength) {
 
 // What Bullet itself does: cutLink() gives each new node 1 kg, whatever the cloth weighs.
 TEST(CutLink, InPlainBulletMakesNodesOfOneKilogram) {
-  CoreScene scene(WorldKind::softRigid, hangingPatch(6));
+  BodyScene scene(WorldKind::softRigid, hangingPatch(6));
   const int nodes = scene.body().m_nodes.size();
   cutOneLink(scene.body());
   ASSERT_EQ(scene.body().m_nodes.size(), nodes + 2);
@@ -161,14 +169,14 @@ class SharedMass : public CutAndRefine {};  // cutLink does not share: its nodes
 TEST_P(SharedMass, RefiningAnEvenlyWetClothLeavesItEvenlyWet) {
   const auto [kind, knife] = GetParam();
   wetcloth::ClothPatch patch = squarePatch(6);
-  CoreScene scene(kind, patch);
+  BodyScene scene(kind, patch);
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog({});
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
   cloth.setSaturation(0.5);
   const double mass = cloth.totalMass();
   knife.cut(scene.body());
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   // Bullet's masses round.
   EXPECT_NEAR(cloth.totalMass(), mass, 1e-5 * mass);
   for (int i = 0; i < cloth.nodeCount(); ++i) EXPECT_NEAR(cloth.saturation(i), 0.5, 1e-4) << i;

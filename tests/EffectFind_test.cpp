@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Zlib
 // WetCloth::find() and forEach(): by the class that an effect was added as, the library's and an application's own.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BulletWorld.h"
+
+#include <gtest/gtest.h>
 
 #include <memory>
 #include <type_traits>
@@ -49,7 +53,7 @@ class FinerSponge : public Sponge {
 class EffectFind : public testing::Test {
  protected:
   EffectFind() : scene(WorldKind::softRigid), wet(scene.world()), cloth(wet.add(scene.body())) {}
-  CoreScene scene;
+  BodyScene scene;
   wetcloth::WetClothWorld wet;
   WetCloth& cloth;
 };

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // The order of a step, effects of the application's own, and what happens to one that fails.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Patches.h"
 
 #include <stdexcept>
 
@@ -26,30 +32,30 @@ TEST_P(EffectOrder, IsThatOfTheStagesWhateverTheOrderOfAdding) {
   const Names expected = {"sources", "transport", "losses", "material", "forces", "elasticity"};
   for (const std::vector<std::size_t>& order :
        {std::vector<std::size_t>{0, 1, 2, 3, 4, 5}, {5, 4, 3, 2, 1, 0}, {3, 5, 0, 4, 1, 2}}) {
-    CoreScene scene(GetParam());
+    BodyScene scene(GetParam());
     wetcloth::WetClothWorld wet(scene.world());
     wetcloth::WetCloth& cloth = wet.add(scene.body());
     Names names;
     for (const std::size_t i : order) addRecorder(cloth, inOrder[i].first, inOrder[i].second, names);
-    scene.bullet.step(1);
+    scene.bullet().step(1);
     EXPECT_EQ(names, expected);
     for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(cloth.effects()[i].stage(), inOrder[i].first);
   }
 }
 
 TEST_P(EffectOrder, WithinAStageIsThatOfAdding) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   Names names;
   for (const char* name : {"b", "a", "c"}) addRecorder(cloth, Stage::forces, name, names);
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(names, (Names{"b", "a", "c"}));
 }
 
 // Masses are written between `material` and `forces`: before, the old mass; after, the new one.
 TEST_P(EffectOrder, MassesAreCommittedBetweenMaterialAndForces) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   const btScalar dry = scene.body().m_nodes[12].m_im;
@@ -60,7 +66,7 @@ TEST_P(EffectOrder, MassesAreCommittedBetweenMaterialAndForces) {
       Stage::material);
   addCall(
       cloth, [&](wetcloth::WetCloth& c, const wetcloth::Step&) { seen[1] = c.body().m_nodes[12].m_im; }, Stage::forces);
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(seen[0], dry);
   EXPECT_LT(seen[1], dry);
 }
@@ -69,13 +75,13 @@ TEST_P(EffectOrder, MassesAreCommittedBetweenMaterialAndForces) {
 TEST_P(EffectOrder, HasNoInfluenceOnTheResult) {
   std::vector<btScalar> results[2];
   for (const bool windFirst : {false, true}) {
-    CoreScene scene(GetParam(), hangingPatch(5));
+    BodyScene scene(GetParam(), hangingPatch(5));
     wetcloth::WetClothWorld wet(scene.world());
     wetcloth::WetCloth& cloth = wet.add(scene.body());
     if (windFirst) cloth.add<wetcloth::Wind>({btVector3(0, 0, 3)});
     cloth.add<wetcloth::Absorption>();
     if (!windFirst) cloth.add<wetcloth::Wind>({btVector3(0, 0, 3)});
-    scene.bullet.step(60);
+    scene.bullet().step(60);
     results[windFirst] = stateOf(scene.body());
   }
   EXPECT_TRUE(sameBits(results[0], results[1]));
@@ -110,12 +116,12 @@ class Sponge : public wetcloth::Effect {
 class OwnEffect : public InEveryWorld {};
 
 TEST_P(OwnEffect, WorksLikeOneOfOurs) {
-  CoreScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
+  BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
   const Sponge& sponge = cloth.add<Sponge>({0.25});
   EXPECT_EQ(&cloth.effects()[0], &sponge);
-  scene.bullet.step(240);
+  scene.bullet().step(240);
   EXPECT_NEAR(cloth.meanSaturation(), 0.25, 1e-5);  // 240 float steps make a second
   EXPECT_NEAR(1 / double(scene.body().m_nodes[5].m_im), cloth.dryMass(5) * 1.25, 1e-5 * cloth.dryMass(5));
   EXPECT_THROW(cloth.add<Sponge>({-1}), std::invalid_argument);
@@ -131,19 +137,19 @@ class Refuses : public wetcloth::Effect {
 };
 
 TEST_P(OwnEffect, ThatRefusesABodyIsNotAdded) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   EXPECT_THROW(cloth.add(std::make_unique<Refuses>()), std::invalid_argument);
   EXPECT_TRUE(cloth.effects().empty());
   EXPECT_THROW(cloth.add(std::unique_ptr<wetcloth::Effect>()), std::invalid_argument);
-  scene.bullet.step(1);
+  scene.bullet().step(1);
 }
 
 // The contract says that apply() never throws; one that does is removed, with a message, and the rest goes on.
 TEST_P(OwnEffect, ThatThrowsIsRemovedAndTheWorldGoesOn) {
   for (const bool standard : {true, false}) {
-    CoreScene scene(GetParam());
+    BodyScene scene(GetParam());
     wetcloth::WetClothWorld wet(scene.world());
     std::vector<std::string> messages;
     wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
@@ -159,7 +165,7 @@ TEST_P(OwnEffect, ThatThrowsIsRemovedAndTheWorldGoesOn) {
         Stage::losses);
     addRecorder(cloth, Stage::losses, "same stage", names);
     addRecorder(cloth, Stage::forces, "after", names);
-    EXPECT_NO_THROW(scene.bullet.step(1));
+    EXPECT_NO_THROW(scene.bullet().step(1));
     EXPECT_EQ(names, (Names{"before", "same stage", "after"}));
     EXPECT_EQ(cloth.effects().size(), 3u);
     ASSERT_EQ(messages.size(), 1u);
@@ -167,7 +173,7 @@ TEST_P(OwnEffect, ThatThrowsIsRemovedAndTheWorldGoesOn) {
     if (standard) {
       EXPECT_NE(messages[0].find("out of soap"), std::string::npos) << messages[0];
     }
-    scene.bullet.step(5);
+    scene.bullet().step(5);
     EXPECT_EQ(names.size(), 18u);
     EXPECT_EQ(messages.size(), 1u);
     EXPECT_TRUE(isFinite(scene.body()));
@@ -188,13 +194,13 @@ class FailsAndGivesBack : public wetcloth::Effect {
 };
 
 TEST_P(OwnEffect, ThatFailsIsDetachedBeforeItIsRemoved) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog({});
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   bool gaveBack = false;
   cloth.add(std::make_unique<FailsAndGivesBack>(gaveBack));
-  EXPECT_NO_THROW(scene.bullet.step(1));
+  EXPECT_NO_THROW(scene.bullet().step(1));
   EXPECT_TRUE(cloth.effects().empty());
   EXPECT_TRUE(gaveBack);
 }
@@ -209,7 +215,7 @@ class DoesNotGiveBack : public wetcloth::Effect {
 };
 
 TEST_P(OwnEffect, ThatThrowsAtTheEndIsReported) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   std::vector<std::string> messages;
   {
     wetcloth::WetClothWorld wet(scene.world());
@@ -222,7 +228,7 @@ TEST_P(OwnEffect, ThatThrowsAtTheEndIsReported) {
 
 // A push is a velocity that Bullet can use: never NaN, never on a pinned node.
 TEST_P(OwnEffect, CannotPushNonsense) {
-  CoreScene scene(GetParam(), hangingPatch(4));
+  BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   const std::vector<btScalar> before = stateOf(scene.body());
@@ -236,16 +242,16 @@ TEST_P(OwnEffect, CannotPushNonsense) {
 }
 
 TEST_P(OwnEffect, ThatIsNotOursCannotBeRemoved) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   wetcloth::Absorption stranger({});
   EXPECT_THROW(cloth.remove(stranger), std::invalid_argument);
   wetcloth::Absorption& ours = cloth.add<wetcloth::Absorption>();
-  scene.bullet.step(5);
+  scene.bullet().step(5);
   const double before = cloth.ledger().held;
   cloth.remove(ours);
-  scene.bullet.step(5);
+  scene.bullet().step(5);
   EXPECT_EQ(cloth.ledger().held, before);
 }
 

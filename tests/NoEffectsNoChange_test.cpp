@@ -2,7 +2,13 @@
 // A cloth that asks for nothing costs nothing and changes nothing: with no effects, the step's result is Bullet's own,
 // bit for bit.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Patches.h"
+#include "tests/support/RigidBody.h"
 
 namespace wetcloth_test::no_effects_no_change_test {
 
@@ -16,18 +22,18 @@ enum class Use { plainBullet, clothWithoutEffects, worldWithoutCloths, attachedA
 std::vector<btScalar> run(WorldKind kind, Use use) {
   wetcloth::ClothPatch patch = squarePatch(12);
   patch.origin = btVector3(0, btScalar(0.3), 0);
-  CoreScene scene(kind, patch);
+  BodyScene scene(kind, patch);
   // Bullet takes one kind or the other: with both set, nothing collides at all.
-  scene.body().m_cfg.collisions = scene.bullet.isDeformable()
+  scene.body().m_cfg.collisions = scene.bullet().isDeformable()
                                       ? btSoftBody::fCollision::SDF_RD | btSoftBody::fCollision::SDF_RDN
                                       : btSoftBody::fCollision::SDF_RS;
   scene.body().m_cfg.piterations = 3;
   scene.body().m_cfg.kDF = btScalar(0.4);
   scene.body().getCollisionShape()->setMargin(btScalar(0.02));
-  scene.addDeformableSprings(30, 0.1);
-  RigidBody sphere(scene.bullet, std::make_unique<btSphereShape>(btScalar(0.25)), 0,
+  scene.addBulletSprings(30, 0.1);
+  RigidBody sphere(scene.bullet(), std::make_unique<btSphereShape>(btScalar(0.25)), 0,
                    btVector3(btScalar(0.55), 0, btScalar(0.5)));
-  RigidBody floor(scene.bullet, std::make_unique<btBoxShape>(btVector3(5, btScalar(0.5), 5)), 0,
+  RigidBody floor(scene.bullet(), std::make_unique<btBoxShape>(btVector3(5, btScalar(0.5), 5)), 0,
                   btVector3(0, btScalar(-1), 0));
 
   std::unique_ptr<wetcloth::WetClothWorld> wet;
@@ -37,7 +43,7 @@ std::vector<btScalar> run(WorldKind kind, Use use) {
   for (int step = 0; step < kSteps; ++step) {
     if (use == Use::attachedAndDetached && step == kSteps / 2) wet.reset();
     if (use == Use::manual) wet->preTick(btScalar(1) / 240);
-    scene.bullet.step(1);
+    scene.bullet().step(1);
   }
   return stateOf(scene.body());
 }
@@ -62,8 +68,8 @@ TEST_P(NoEffectsNoChange, InASceneWithCollisions) {
 
 // Nothing on the body itself is changed by coming and going, its masses included.
 TEST_P(NoEffectsNoChange, OnTheBodyItself) {
-  CoreScene scene(GetParam(), hangingPatch(5));
-  scene.bullet.step(5);
+  BodyScene scene(GetParam(), hangingPatch(5));
+  scene.bullet().step(5);
   const int links = scene.body().m_links.size();
   const int materials = scene.body().m_materials.size();
   std::vector<btScalar> masses;
@@ -71,7 +77,7 @@ TEST_P(NoEffectsNoChange, OnTheBodyItself) {
   {
     wetcloth::WetClothWorld wet(scene.world());
     wet.add(scene.body());
-    scene.bullet.step(5);
+    scene.bullet().step(5);
     wet.remove(scene.body());
   }
   for (int i = 0; i < scene.body().m_nodes.size(); ++i) {

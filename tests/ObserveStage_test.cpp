@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Stage::observe: an observer sees how the last substep ended, before anything changes, and of a sleeping body too.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Patches.h"
 
 #include <stdexcept>
 #include <string>
@@ -24,21 +30,21 @@ class TwoCloths {
  public:
   explicit TwoCloths(WorldKind kind)
       : m_scene(kind),
-        m_other(squarePatch(3).build(m_scene.bullet.info())),
+        m_other(squarePatch(3).build(m_scene.bullet().info())),
         wet(m_scene.world(), wetcloth::Hook::manual),
         first(wet.add(m_scene.body())),
         second(addOther()) {}
-  ~TwoCloths() { m_scene.bullet.remove(*m_other); }
+  ~TwoCloths() { m_scene.bullet().remove(*m_other); }
   TwoCloths(const TwoCloths&) = delete;
   TwoCloths& operator=(const TwoCloths&) = delete;
 
  private:
   wetcloth::WetCloth& addOther() {
-    m_scene.bullet.add(*m_other);
+    m_scene.bullet().add(*m_other);
     return wet.add(*m_other);
   }
 
-  CoreScene m_scene;
+  BodyScene m_scene;
   std::unique_ptr<btSoftBody> m_other;
 
  public:
@@ -62,7 +68,7 @@ TEST_P(ObserveStage, ComesBeforeAllOtherStagesOfAllCloths) {
 }
 
 TEST_P(ObserveStage, SeesTheClothAsTheLastSubstepLeftIt) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   cloth.add<wetcloth::Absorption>();
@@ -79,7 +85,7 @@ TEST_P(ObserveStage, SeesTheClothAsTheLastSubstepLeftIt) {
       },
       Stage::observe);
   for (int i = 0; i < 5; ++i) {
-    scene.bullet.step(1);
+    scene.bullet().step(1);
     last = stateOf(scene.body());
     held = cloth.ledger().held;
   }
@@ -88,7 +94,7 @@ TEST_P(ObserveStage, SeesTheClothAsTheLastSubstepLeftIt) {
 }
 
 TEST_P(ObserveStage, SeesABodyThatWasCutAsItIsNow) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wet.setLog(nullptr);
   wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -102,7 +108,7 @@ TEST_P(ObserveStage, SeesABodyThatWasCutAsItIsNow) {
 }
 
 TEST_P(ObserveStage, AnObserverThatThrowsIsRemoved) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   Names messages;
   wet.setLog([&](const std::string& message) { messages.push_back(message); });
@@ -120,7 +126,7 @@ WETCLOTH_IN_EVERY_WORLD(ObserveStage);
 
 // Only the deformable world lets a soft body sleep.
 TEST(ObserveStageAsleep, RunsWhileForcesRest) {
-  CoreScene scene(WorldKind::deformable);
+  BodyScene scene(WorldKind::deformable);
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   Names names;

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: Zlib
 // A cloth where no water moves does not touch masses, and a settled effect idles until its input changes.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Patches.h"
 
 namespace wetcloth_test::only_the_work_asked_for_test {
 
@@ -17,9 +24,9 @@ struct Soaked {
     parameters.law = law;
     parameters.rampDuration = 0.5;
     soak = &cloth.add<wetcloth::Absorption>(parameters);
-    scene.bullet.step(240);
+    scene.bullet().step(240);
   }
-  CoreScene scene;
+  BodyScene scene;
   wetcloth::WetClothWorld wet;
   wetcloth::WetCloth& cloth;
   wetcloth::Absorption* soak = nullptr;
@@ -34,7 +41,7 @@ TEST_P(OnlyTheWorkAskedFor, IsNoneAfterSaturation) {
     const long long commits = soaked.cloth.masses().commits();
     const long long refreshes = soaked.cloth.linkConstants().refreshes();
     EXPECT_GT(visited, 0);
-    soaked.scene.bullet.step(50);
+    soaked.scene.bullet().step(50);
     EXPECT_EQ(soaked.soak->nodesVisited(), visited);
     EXPECT_EQ(soaked.cloth.masses().commits(), commits);
     EXPECT_EQ(soaked.cloth.linkConstants().refreshes(), refreshes);
@@ -43,7 +50,7 @@ TEST_P(OnlyTheWorkAskedFor, IsNoneAfterSaturation) {
 
 TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenWaterLeft) {
   Soaked soaked(GetParam());
-  soaked.scene.bullet.step(10);
+  soaked.scene.bullet().step(10);
   bool once = true;
   addCall(
       soaked.cloth,
@@ -52,61 +59,61 @@ TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenWaterLeft) {
         once = false;
       },
       wetcloth::Stage::losses);
-  soaked.scene.bullet.step(1);
+  soaked.scene.bullet().step(1);
   EXPECT_NEAR(soaked.cloth.saturation(7), 0.5, 1e-6);
-  soaked.scene.bullet.step(100);
+  soaked.scene.bullet().step(100);
   EXPECT_NEAR(soaked.cloth.saturation(7), 1, 1e-12);
 }
 
 TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenWaterWasSetByHand) {
   Soaked soaked(GetParam());
-  soaked.scene.bullet.step(10);
+  soaked.scene.bullet().step(10);
   soaked.cloth.setSaturation(0.25);
-  soaked.scene.bullet.step(240);
+  soaked.scene.bullet().step(240);
   EXPECT_NEAR(soaked.cloth.meanSaturation(), 1, 1e-12);
 }
 
 TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenTheExposureChanged) {
-  CoreScene scene(GetParam(), hangingPatch(5));
+  BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 0.01));
   wetcloth::Absorption& soak = cloth.add<wetcloth::Absorption>({0.0});
-  scene.bullet.step(10);
+  scene.bullet().step(10);
   EXPECT_EQ(cloth.ledger().held, 0);
   adjust(soak, [](auto& p) { p.exposure = 1.0; });
-  scene.bullet.step(240);
+  scene.bullet().step(240);
   EXPECT_NEAR(cloth.meanSaturation(), 1, 1e-12);
 }
 
 TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenTheApplicationMadeANodeHeavier) {
   Soaked soaked(GetParam());
-  soaked.scene.bullet.step(10);
+  soaked.scene.bullet().step(10);
   soaked.scene.body().setMass(3, btScalar(0.5));
   soaked.cloth.setSaturation(1);  // any commit takes the mass over
   EXPECT_NEAR(soaked.cloth.dryMass(3), 0.5, 1e-6);
-  soaked.scene.bullet.step(240);
+  soaked.scene.bullet().step(240);
   EXPECT_NEAR(soaked.cloth.saturation(3), 1, 1e-12);
 }
 
 // Wind writes velocities only.
 TEST_P(OnlyTheWorkAskedFor, WindTouchesNoMasses) {
-  CoreScene scene(GetParam(), hangingPatch(5));
+  BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   cloth.add<wetcloth::Wind>({btVector3(0, 0, 3)});
   const long long commits = cloth.masses().commits();
   const btScalar before = scene.body().m_nodes[2].m_im;
-  scene.bullet.step(20);
+  scene.bullet().step(20);
   EXPECT_EQ(cloth.masses().commits(), commits);
   EXPECT_EQ(scene.body().m_nodes[2].m_im, before);
 }
 
 // What is set by hand is there at once, without a step.
 TEST_P(OnlyTheWorkAskedFor, IsDoneAtOnceWhenWaterIsSetByHand) {
-  CoreScene scene(GetParam(), hangingPatch(5));
+  BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(3, 1));
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   const std::vector<btScalar> before = stateOf(scene.body());
   const double dry = cloth.dryMass(7);
   cloth.setSaturation(1);

@@ -2,7 +2,12 @@
 // Bodies that are no cloth: a rope has links and no faces, a cloud of points has neither. Effects that need faces or
 // links say so; the others work.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
 
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
@@ -35,12 +40,12 @@ std::string messageOfAdding(wetcloth::WetCloth& cloth, typename E::Parameters pa
 class RopesAndPoints : public InEveryWorld {};
 
 TEST_P(RopesAndPoints, ARopeAbsorbs) {
-  CoreScene scene(GetParam(), rope);
+  BodyScene scene(GetParam(), rope);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
   EXPECT_NEAR(cloth.dryMass(0), 1, 1e-6) << "the fixed node weighs what the others do";
   cloth.add<wetcloth::Absorption>();
-  scene.bullet.step(240);
+  scene.bullet().step(240);
   EXPECT_NEAR(cloth.meanSaturation(), 1 - std::exp(-1), 1e-5);
   EXPECT_NEAR(1 / double(scene.body().m_nodes[5].m_im), 1 + cloth.held(5), 1e-6);
   EXPECT_EQ(scene.body().m_nodes[0].m_im, 0);
@@ -48,19 +53,19 @@ TEST_P(RopesAndPoints, ARopeAbsorbs) {
 }
 
 TEST_P(RopesAndPoints, WindSaysThatARopeHasNoFaces) {
-  CoreScene scene(GetParam(), rope);
+  BodyScene scene(GetParam(), rope);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   EXPECT_NE(messageOfAdding<wetcloth::Wind>(cloth).find("face"), std::string::npos)
       << messageOfAdding<wetcloth::Wind>(cloth);
   EXPECT_TRUE(cloth.effects().empty());
-  scene.bullet.step(3);
+  scene.bullet().step(3);
 }
 
 // A heavy end on springs: extension m g / k, each spring carries what hangs below it.
 TEST_P(RopesAndPoints, SpringsWorkOnARope) {
   constexpr double k = 5000;
-  CoreScene scene(GetParam(), rope);
+  BodyScene scene(GetParam(), rope);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
   cloth.add<wetcloth::HookeSprings>(springsOf(k));
@@ -69,14 +74,14 @@ TEST_P(RopesAndPoints, SpringsWorkOnARope) {
       wetCloth.push(wetCloth.body().m_nodes[i], wetCloth.body().m_nodes[i].m_v * btScalar(-8 * step.dt));
     }
   });
-  scene.bullet.step(2400);
+  scene.bullet().step(2400);
   // 10 springs carry 10, 9, ... 1 kg.
   const double expected = 1 + 55 * 9.81 / k;
   EXPECT_NEAR(-double(scene.body().m_nodes[10].m_x.y()), expected, 0.05 * (expected - 1));
 }
 
 TEST_P(RopesAndPoints, SpringsSayThatPointsHaveNoLinks) {
-  CoreScene scene(GetParam(), points);
+  BodyScene scene(GetParam(), points);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   EXPECT_NE(messageOfAdding<wetcloth::HookeSprings>(cloth).find("link"), std::string::npos)
@@ -84,13 +89,13 @@ TEST_P(RopesAndPoints, SpringsSayThatPointsHaveNoLinks) {
   EXPECT_NE(messageOfAdding<wetcloth::Wind>(cloth).find("face"), std::string::npos);
   EXPECT_TRUE(cloth.effects().empty());
   cloth.add<wetcloth::Absorption>();
-  scene.bullet.step(10);
+  scene.bullet().step(10);
   EXPECT_GT(cloth.meanSaturation(), 0);
 }
 
 // The springs take the place of the links' own pull; removing them gives it back.
 TEST_P(RopesAndPoints, RemovedSpringsGiveTheLinksBack) {
-  CoreScene scene(GetParam(), rope);
+  BodyScene scene(GetParam(), rope);
   std::vector<const btSoftBody::Material*> materials;
   for (int i = 0; i < scene.body().m_links.size(); ++i) materials.push_back(scene.body().m_links[i].m_material);
   std::vector<btScalar> stiffness;
@@ -98,7 +103,7 @@ TEST_P(RopesAndPoints, RemovedSpringsGiveTheLinksBack) {
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   wetcloth::HookeSprings& springs = cloth.add<wetcloth::HookeSprings>(springsOf(1000));
-  scene.bullet.step(5);
+  scene.bullet().step(5);
   cloth.remove(springs);
   for (int i = 0; i < scene.body().m_links.size(); ++i) {
     const btSoftBody::Link& link = scene.body().m_links[i];

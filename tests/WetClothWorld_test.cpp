@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: Zlib
 // Several cloths in a world, several worlds in a process, several threads: nobody notices the others.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Patches.h"
 
 #include <thread>
 
@@ -11,13 +18,13 @@ namespace {
 
 // Everything at once, with numbers that depend on `seed`.
 std::vector<btScalar> run(WorldKind kind, int seed, int steps) {
-  CoreScene scene(kind, hangingPatch(6));
+  BodyScene scene(kind, hangingPatch(6));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(0.5 + 0.1 * seed, 1));
   cloth.add<wetcloth::Absorption>({0.1 * (1 + seed % 9)});
   cloth.add<wetcloth::Wind>({btVector3(1, 0, btScalar(1 + seed))});
   if (seed % 2 == 1) cloth.add<wetcloth::HookeSprings>();
-  scene.bullet.step(steps);
+  scene.bullet().step(steps);
   std::vector<btScalar> result = stateOf(scene.body());
   for (int i = 0; i < cloth.nodeCount(); ++i) result.push_back(btScalar(cloth.held(i)));
   return result;
@@ -52,15 +59,15 @@ TEST_P(WorldsAndThreads, EachThreadGetsTheResultOfASingleOne) {
 }
 
 TEST_P(WorldsAndThreads, TwoWorldsInOneThreadTakeTurns) {
-  CoreScene one(GetParam(), squarePatch(3));
-  CoreScene two(GetParam(), squarePatch(3));
+  BodyScene one(GetParam(), squarePatch(3));
+  BodyScene two(GetParam(), squarePatch(3));
   wetcloth::WetClothWorld wetOne(one.world());
   wetcloth::WetClothWorld wetTwo(two.world());
   int calls[2] = {0, 0};
   addCall(wetOne.add(one.body()), [&](wetcloth::WetCloth&, const wetcloth::Step&) { ++calls[0]; });
   addCall(wetTwo.add(two.body()), [&](wetcloth::WetCloth&, const wetcloth::Step&) { ++calls[1]; });
-  one.bullet.step(3);
-  two.bullet.step(5);
+  one.bullet().step(3);
+  two.bullet().step(5);
   EXPECT_EQ(calls[0], 3);
   EXPECT_EQ(calls[1], 5);
 }

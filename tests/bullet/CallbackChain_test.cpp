@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Zlib
 // The application's callbacks and ours share Bullet's one slot: who is called when, and what is left behind.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
 
 #include <memory>
 #include <stdexcept>
@@ -34,18 +37,18 @@ using Calls = std::vector<std::string>;
 class CallbackChain : public InEveryWorld {};
 
 TEST_P(CallbackChain, TheApplicationComesFirst) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::preTick, &application, true);
   wetcloth::WetClothWorld wet(scene.world());
   addRecorder(wet.add(scene.body()), application);
-  scene.bullet.step(2);
+  scene.bullet().step(2);
   EXPECT_EQ(application.calls, (Calls{"application", "effect", "application", "effect"}));
   EXPECT_TRUE(wet.isHooked());
 }
 
 TEST_P(CallbackChain, DetachingPutsTheApplicationsCallbackBack) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::preTick, &application, true);
   {
@@ -53,37 +56,37 @@ TEST_P(CallbackChain, DetachingPutsTheApplicationsCallbackBack) {
     addRecorder(wet.add(scene.body()), application);
   }
   EXPECT_EQ(scene.world().getWorldUserInfo(), &application);
-  scene.bullet.step(2);
+  scene.bullet().step(2);
   EXPECT_EQ(application.calls, (Calls{"application", "application"}));
 }
 
 TEST_P(CallbackChain, WithoutAnApplicationsCallbackNothingIsLeftBehind) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   { wetcloth::WetClothWorld wet(scene.world()); }
   EXPECT_EQ(scene.world().getWorldUserInfo(), nullptr);
-  scene.bullet.step(2);  // a stale pointer would crash here
+  scene.bullet().step(2);  // a stale pointer would crash here
 }
 
 // The post-tick callback and the user info can be set on top of us at any time.
 TEST_P(CallbackChain, ThePostTickCallbackMayBeSetLater) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   Application application;
   addRecorder(wet.add(scene.body()), application);
   scene.world().setInternalTickCallback(Application::postTick, &application, false);
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(application.calls, (Calls{"effect", "post"}));
   EXPECT_TRUE(wet.isHooked());
 }
 
 TEST_P(CallbackChain, OverwritingTheSlotIsNoticed) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   wetcloth::WetClothWorld wet(scene.world());
   addRecorder(wet.add(scene.body()), application);
   scene.world().setInternalTickCallback(Application::preTick, &application, true);
   EXPECT_FALSE(wet.isHooked());
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(application.calls, Calls{"application"});
   // A cloth that is added now would never get wet: that is said.
   std::vector<std::string> messages;
@@ -95,30 +98,30 @@ TEST_P(CallbackChain, OverwritingTheSlotIsNoticed) {
 
 // Whoever took the slot after us keeps it when we leave.
 TEST_P(CallbackChain, ACallbackSetOnTopOfOursSurvivesUs) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::preTick, &application, true);
   {
     wetcloth::WetClothWorld wet(scene.world());
     scene.world().setInternalTickCallback(Application::otherPreTick, &application, true);
   }
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(application.calls, Calls{"other"});
 }
 
 TEST_P(CallbackChain, AnApplicationThatTookTheSlotMayCallUsItself) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   wetcloth::WetClothWorld wet(scene.world());
   addRecorder(wet.add(scene.body()), application);
   application.wet = &wet;
   scene.world().setInternalTickCallback(Application::preTickThatCallsUs, &application, true);
-  scene.bullet.step(2);
+  scene.bullet().step(2);
   EXPECT_EQ(application.calls, (Calls{"application", "effect", "application", "effect"}));
 }
 
 TEST_P(CallbackChain, InManualModeTheSlotIsTheApplications) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::preTickThatCallsUs, &application, true);
   {
@@ -126,64 +129,64 @@ TEST_P(CallbackChain, InManualModeTheSlotIsTheApplications) {
     application.wet = &wet;
     addRecorder(wet.add(scene.body()), application);
     EXPECT_FALSE(wet.isHooked());
-    scene.bullet.step(2);
+    scene.bullet().step(2);
     EXPECT_NEAR(wet.time(), 2.0 / 240, 1e-9);
     scene.world().setInternalTickCallback(Application::otherPreTick, &application, true);
   }
   EXPECT_EQ(application.calls, (Calls{"application", "effect", "application", "effect"}));
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(application.calls.back(), "other");
 }
 
 TEST_P(CallbackChain, TwoOnOneWorldAreRefused) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   for (const wetcloth::Hook second : {wetcloth::Hook::preTick, wetcloth::Hook::manual}) {
     wetcloth::WetClothWorld wet(scene.world());
     EXPECT_THROW(wetcloth::WetClothWorld(scene.world(), second), std::invalid_argument);
     EXPECT_TRUE(wet.isHooked());
     int calls = 0;
     addCall(wet.add(scene.body()), [&calls](wetcloth::WetCloth&, const wetcloth::Step&) { ++calls; });
-    scene.bullet.step(1);
+    scene.bullet().step(1);
     EXPECT_EQ(calls, 1);
   }
 }
 
 TEST_P(CallbackChain, AttachingAgainAfterDetachingWorks) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::preTick, &application, true);
   for (int round = 0; round < 3; ++round) {
     wetcloth::WetClothWorld wet(scene.world());
     addRecorder(wet.add(scene.body()), application);
     application.calls.clear();
-    scene.bullet.step(1);
+    scene.bullet().step(1);
     EXPECT_EQ(application.calls, (Calls{"application", "effect"})) << round;
   }
 }
 
 // An exception of the application's own travels through Bullet's step to the application; the next step is whole.
 TEST_P(CallbackChain, AnApplicationsExceptionDoesNotSilenceUs) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(
       [](btDynamicsWorld*, btScalar) { throw std::runtime_error("the application's"); }, &application, true);
   wetcloth::WetClothWorld wet(scene.world());
   int calls = 0;
   addCall(wet.add(scene.body()), [&calls](wetcloth::WetCloth&, const wetcloth::Step&) { ++calls; });
-  EXPECT_THROW(scene.bullet.step(1), std::runtime_error);
-  EXPECT_THROW(scene.bullet.step(1), std::runtime_error) << "the application's callback is called in every step";
+  EXPECT_THROW(scene.bullet().step(1), std::runtime_error);
+  EXPECT_THROW(scene.bullet().step(1), std::runtime_error) << "the application's callback is called in every step";
   EXPECT_EQ(calls, 0);
 }
 
 // What we know of the slot must outlive the call that is under way.
 TEST_P(CallbackChain, TheApplicationMayDestroyUsFromItsCallback) {
   static std::unique_ptr<wetcloth::WetClothWorld> wet;
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   scene.world().setInternalTickCallback([](btDynamicsWorld*, btScalar) { wet.reset(); }, nullptr, true);
   wet = std::make_unique<wetcloth::WetClothWorld>(scene.world());
   int calls = 0;
   addCall(wet->add(scene.body()), [&calls](wetcloth::WetCloth&, const wetcloth::Step&) { ++calls; });
-  scene.bullet.step(2);
+  scene.bullet().step(2);
   EXPECT_FALSE(wet);
   EXPECT_EQ(calls, 0);
   const wetcloth::WetClothWorld another(scene.world());

@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Zlib
 // The reader of Bullet's contact lists: what it tells of a contact, and what it passes over.
 
+#include "bullet_wetcloth/bullet/Contacts.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/Bodies.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/ClothScene.h"
 #include "tests/support/ContactScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/RigidBody.h"
 
 namespace wetcloth_test::contacts_test {
 namespace {

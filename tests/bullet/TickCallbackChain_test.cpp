@@ -2,7 +2,13 @@
 // Bullet's tick callback, between its collision detection and its solve, is shared with the application like the
 // pre-tick callback, but only while a cloth has an effect of the stage `contact`.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Patches.h"
 
 #include <stdexcept>
 
@@ -37,19 +43,19 @@ wetcloth::Effect& addRecorder(wetcloth::WetCloth& cloth, Application& applicatio
 class TickCallbackChain : public InEveryWorld {};
 
 TEST_P(TickCallbackChain, TheSlotIsTheApplicationsWhileNoEffectNeedsIt) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::tick, &application, false);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   addRecorder(cloth, application, Stage::forces, "forces");
   EXPECT_FALSE(wet.isTickHooked());
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(application.calls, (Calls{"forces", "application"}));
 }
 
 TEST_P(TickCallbackChain, TheApplicationComesFirst) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::tick, &application, false);
   wetcloth::WetClothWorld wet(scene.world());
@@ -58,12 +64,12 @@ TEST_P(TickCallbackChain, TheApplicationComesFirst) {
   addRecorder(cloth, application, Stage::sources, "sources");
   EXPECT_TRUE(wet.isTickHooked());
   EXPECT_EQ(scene.world().getWorldUserInfo(), &application);
-  scene.bullet.step(2);
+  scene.bullet().step(2);
   EXPECT_EQ(application.calls, (Calls{"sources", "application", "contact", "sources", "application", "contact"}));
 }
 
 TEST_P(TickCallbackChain, TheSlotIsGivenBackWithTheLastEffect) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::tick, &application, false);
   wetcloth::WetClothWorld wet(scene.world());
@@ -72,10 +78,10 @@ TEST_P(TickCallbackChain, TheSlotIsGivenBackWithTheLastEffect) {
   wetcloth::Effect& second = addRecorder(cloth, application, Stage::contact, "second");
   cloth.remove(first);
   EXPECT_TRUE(wet.isTickHooked());
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   cloth.remove(second);
   EXPECT_FALSE(wet.isTickHooked());
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(application.calls, (Calls{"application", "second", "application"}));
   addRecorder(cloth, application, Stage::contact, "third");
   wet.remove(scene.body());
@@ -83,43 +89,43 @@ TEST_P(TickCallbackChain, TheSlotIsGivenBackWithTheLastEffect) {
 }
 
 TEST_P(TickCallbackChain, DetachingPutsTheApplicationsCallbackBack) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::tick, &application, false);
   {
     wetcloth::WetClothWorld wet(scene.world());
     addRecorder(wet.add(scene.body()), application, Stage::contact, "contact");
   }
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(application.calls, Calls{"application"});
 }
 
 TEST_P(TickCallbackChain, NothingIsLeftBehind) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   {
     wetcloth::WetClothWorld wet(scene.world());
     addRecorder(wet.add(scene.body()), application, Stage::contact, "contact");
   }
-  scene.bullet.step(1);  // a stale pointer would crash here
+  scene.bullet().step(1);  // a stale pointer would crash here
   EXPECT_TRUE(application.calls.empty());
   EXPECT_EQ(scene.world().getWorldUserInfo(), nullptr);
 }
 
 TEST_P(TickCallbackChain, ThePreTickCallbackMayBeSetLater) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   wetcloth::WetClothWorld wet(scene.world());
   addRecorder(wet.add(scene.body()), application, Stage::contact, "contact");
   scene.world().setInternalTickCallback(Application::preTick, &application, true);
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(application.calls, (Calls{"pre", "contact"}));
   EXPECT_TRUE(wet.isTickHooked());
   EXPECT_FALSE(wet.isHooked());
 }
 
 TEST_P(TickCallbackChain, OverwritingTheSlotIsNoticed) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   wetcloth::WetClothWorld wet(scene.world());
   Calls messages;
@@ -130,30 +136,30 @@ TEST_P(TickCallbackChain, OverwritingTheSlotIsNoticed) {
   scene.world().setInternalTickCallback(Application::otherTick, &application, false);
   EXPECT_FALSE(wet.isTickHooked());
   EXPECT_TRUE(wet.isHooked());
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(application.calls, Calls{"other"});
   addRecorder(cloth, application, Stage::contact, "second");
   EXPECT_EQ(messages.size(), 1u);
 }
 
 TEST_P(TickCallbackChain, AnApplicationThatTookTheSlotMayCallUsItself) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   {
     wetcloth::WetClothWorld wet(scene.world());
     application.wet = &wet;
     addRecorder(wet.add(scene.body()), application, Stage::contact, "contact");
     scene.world().setInternalTickCallback(Application::tickThatCallsUs, &application, false);
-    scene.bullet.step(2);
+    scene.bullet().step(2);
     EXPECT_EQ(application.calls, (Calls{"application", "contact", "application", "contact"}));
     scene.world().setInternalTickCallback(Application::otherTick, &application, false);
   }
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(application.calls.back(), "other") << "whoever took the slot after us keeps it";
 }
 
 TEST_P(TickCallbackChain, InManualModeTheSlotIsTheApplications) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::preTickThatCallsUs, &application, true);
   scene.world().setInternalTickCallback(Application::tickThatCallsUs, &application, false);
@@ -163,32 +169,32 @@ TEST_P(TickCallbackChain, InManualModeTheSlotIsTheApplications) {
   addRecorder(cloth, application, Stage::contact, "contact");
   addRecorder(cloth, application, Stage::forces, "forces");
   EXPECT_FALSE(wet.isTickHooked());
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(application.calls, (Calls{"forces", "application", "contact"}));
 }
 
 TEST_P(TickCallbackChain, AnApplicationsExceptionDoesNotSilenceUs) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback([](btDynamicsWorld*, btScalar) { throw std::runtime_error("its own"); },
                                         &application, false);
   wetcloth::WetClothWorld wet(scene.world());
   addRecorder(wet.add(scene.body()), application, Stage::contact, "contact");
-  EXPECT_THROW(scene.bullet.step(1), std::runtime_error);
-  EXPECT_THROW(scene.bullet.step(1), std::runtime_error) << "it is called in every step";
+  EXPECT_THROW(scene.bullet().step(1), std::runtime_error);
+  EXPECT_THROW(scene.bullet().step(1), std::runtime_error) << "it is called in every step";
 }
 
 // --- the stage ------------------------------------------------------------------------------------------------------
 
 TEST_P(TickCallbackChain, AnEffectSeesTheSubstepOfItsPreTick) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   std::vector<wetcloth::Step> steps;
   const auto record = [&steps](wetcloth::WetCloth&, const wetcloth::Step& step) { steps.push_back(step); };
   addCall(cloth, record, Stage::contact);
   addCall(cloth, record, Stage::forces);
-  scene.bullet.step(3);
+  scene.bullet().step(3);
   ASSERT_EQ(steps.size(), 6u);
   for (std::size_t i = 0; i < 6; i += 2) {
     EXPECT_EQ(steps[i].time, steps[i + 1].time);
@@ -197,40 +203,40 @@ TEST_P(TickCallbackChain, AnEffectSeesTheSubstepOfItsPreTick) {
 }
 
 TEST_P(TickCallbackChain, AThrowingEffectIsRemovedAndTheSlotGivenBack) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   Calls messages;
   wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   addCall(
       cloth, [](wetcloth::WetCloth&, const wetcloth::Step&) { throw std::runtime_error("no"); }, Stage::contact);
-  scene.bullet.step(2);
+  scene.bullet().step(2);
   EXPECT_EQ(messages.size(), 1u);
   EXPECT_TRUE(cloth.effects().empty());
   EXPECT_FALSE(wet.isTickHooked());
 }
 
 TEST_P(TickCallbackChain, AnEffectThatDoesNothingChangesNothing) {
-  CoreScene with(GetParam(), hangingPatch(5));
-  CoreScene without(GetParam(), hangingPatch(5));
+  BodyScene with(GetParam(), hangingPatch(5));
+  BodyScene without(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(with.world());
   addCall(
       wet.add(with.body()), [](wetcloth::WetCloth&, const wetcloth::Step&) {}, Stage::contact);
-  with.bullet.step(60);
-  without.bullet.step(60);
+  with.bullet().step(60);
+  without.bullet().step(60);
   EXPECT_TRUE(sameBits(stateOf(with.body()), stateOf(without.body())));
 }
 
 TEST(TickCallbackOfASleeper, DoesNotRun) {
-  CoreScene scene(WorldKind::deformable, squarePatch(4), btVector3(0, 0, 0));
+  BodyScene scene(WorldKind::deformable, squarePatch(4), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
   int calls = 0;
   addCall(
       wet.add(scene.body()), [&calls](wetcloth::WetCloth&, const wetcloth::Step&) { ++calls; }, Stage::contact);
-  scene.bullet.step(2000);
+  scene.bullet().step(2000);
   ASSERT_FALSE(scene.body().isActive());
   const int before = calls;
-  scene.bullet.step(10);
+  scene.bullet().step(10);
   EXPECT_EQ(calls, before);
 }
 

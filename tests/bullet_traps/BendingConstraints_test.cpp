@@ -2,7 +2,10 @@
 // btSoftBody::generateBendingConstraints(2) links every pair of nodes two edges apart, nearly twice the paper's
 // springs, and indexes an n x n array with int, which overflows from 46,341 nodes on.
 
-#include "tests/support/CoreScene.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 

@@ -2,25 +2,29 @@
 // Bullet's own aerodynamics: the two-sided models grow as the cube of the speed, and all clamp by the node's absolute
 // speed, so that wind never moves a cloth at rest. Ours stands on its own, and a body that has both feels both.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 namespace wetcloth_test::bullet_aero_test {
 
 namespace {
 
-const btVector3 kNoGravity(0, 0, 0);
-
 // What the air takes, in one step, from a sheet that moves through it broadside [m/s].
 double lossInOneStep(btSoftBody::eAeroModel::_ model, double bulletCoefficient, bool withOurs, double speed) {
-  CoreScene scene(WorldKind::softRigid, sailPatch(4), kNoGravity);
+  BodyScene scene(WorldKind::softRigid, sailPatch(4), kNoGravity);
   scene.body().m_cfg.aeromodel = model;
   scene.body().m_cfg.kDG = btScalar(bulletCoefficient);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   if (withOurs) cloth.add<wetcloth::Wind>({btVector3(0, 0, 0)});
-  scene.bullet.step(1);  // Bullet has normals and areas from now on
+  scene.bullet().step(1);  // Bullet has normals and areas from now on
   scene.body().setVelocity(btVector3(0, 0, btScalar(speed)));
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   return speed - double(meanVelocity(scene.body()).z());
 }
 
@@ -39,21 +43,21 @@ TEST(BulletAero, InPlainBulletTheTwoSidedModelsGrowAsTheCubeOfTheSpeed) {
 TEST(BulletAero, InPlainBulletNoModelMovesAClothAtRest) {
   for (const auto model : {btSoftBody::eAeroModel::V_TwoSided, btSoftBody::eAeroModel::V_TwoSidedLiftDrag,
                            btSoftBody::eAeroModel::F_TwoSided, btSoftBody::eAeroModel::F_TwoSidedLiftDrag}) {
-    CoreScene scene(WorldKind::softRigid, sailPatch(4), kNoGravity);
+    BodyScene scene(WorldKind::softRigid, sailPatch(4), kNoGravity);
     scene.body().m_cfg.aeromodel = model;
     scene.body().m_cfg.kDG = 1;
     scene.body().setWindVelocity(btVector3(0, 0, 30));
-    scene.bullet.step(3);
+    scene.bullet().step(3);
     // The links' rounding moves the nodes by micrometres per second, which the clamp lets grow by 0.8 each step.
     EXPECT_LT(meanVelocity(scene.body()).length(), 1e-4) << model;
   }
 }
 
 TEST(BulletAero, OurWindMovesAClothAtRest) {
-  CoreScene scene(WorldKind::softRigid, sailPatch(4), kNoGravity);
+  BodyScene scene(WorldKind::softRigid, sailPatch(4), kNoGravity);
   wetcloth::WetClothWorld wet(scene.world());
   wet.add(scene.body()).add<wetcloth::Wind>({btVector3(0, 0, 30)});
-  scene.bullet.step(10);
+  scene.bullet().step(10);
   EXPECT_GT(meanVelocity(scene.body()).z(), 1);
 }
 
@@ -73,21 +77,21 @@ TEST(BulletAero, AClothWithBothFeelsBoth) {
 
 // How to turn Bullet's off: kDG = kLF = 0, its default. Its wind velocity alone then does nothing.
 TEST(BulletAero, IsOffByDefault) {
-  CoreScene scene(WorldKind::softRigid, sailPatch(4), kNoGravity);
+  BodyScene scene(WorldKind::softRigid, sailPatch(4), kNoGravity);
   EXPECT_EQ(scene.body().m_cfg.kDG, 0);
   EXPECT_EQ(scene.body().m_cfg.kLF, 0);
   EXPECT_NEAR(lossInOneStep(btSoftBody::eAeroModel::V_Point, 0, false, 1), 0, 1e-5);
 }
 
 TEST(BulletAero, WeLeaveItsSettingsAlone) {
-  CoreScene scene(WorldKind::softRigid, sailPatch(4), kNoGravity);
+  BodyScene scene(WorldKind::softRigid, sailPatch(4), kNoGravity);
   scene.body().m_cfg.kDG = btScalar(0.25);
   scene.body().m_cfg.kLF = btScalar(0.125);
   scene.body().setWindVelocity(btVector3(1, 2, 3));
   {
     wetcloth::WetClothWorld wet(scene.world());
     wet.add(scene.body()).add<wetcloth::Wind>({btVector3(0, 0, 1)});
-    scene.bullet.step(3);
+    scene.bullet().step(3);
   }
   EXPECT_EQ(scene.body().m_cfg.kDG, btScalar(0.25));
   EXPECT_EQ(scene.body().m_cfg.kLF, btScalar(0.125));

@@ -2,7 +2,13 @@
 // initializeClusters() caches node masses, the cluster's mass, its centre and its inertia. Calling it again on a
 // running body is no way out: it takes the deformed shape for the rest shape.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Patches.h"
+#include "tests/support/UnevenWater.h"
 
 namespace wetcloth_test::cluster_masses_are_cached_test {
 
@@ -60,16 +66,16 @@ class ClusterMassesAreCached : public InEveryWorld {};
 
 // The fact.
 TEST_P(ClusterMassesAreCached, InPlainBulletTheyDoNotFollowTheNodes) {
-  CoreScene scene(GetParam(), dryWithClusters);
+  BodyScene scene(GetParam(), dryWithClusters);
   const btScalar before = scene.body().m_clusters[0]->m_imass;
   makeUnevenlyHeavy(scene.body());
-  scene.bullet.step(10);
+  scene.bullet().step(10);
   EXPECT_EQ(scene.body().m_clusters[0]->m_imass, before);
 }
 
 TEST_P(ClusterMassesAreCached, WetClothHasThoseOfABodyBuiltHeavy) {
-  CoreScene scene(GetParam(), dryWithClusters);
-  CoreScene fresh(GetParam(), heavyWithClusters);
+  BodyScene scene(GetParam(), dryWithClusters);
+  BodyScene fresh(GetParam(), heavyWithClusters);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   cloth.setHeld(unevenWater(cloth));
@@ -77,8 +83,8 @@ TEST_P(ClusterMassesAreCached, WetClothHasThoseOfABodyBuiltHeavy) {
 }
 
 TEST_P(ClusterMassesAreCached, ShapeAtRestIsThatOfTheDryClothNotTheDeformedOne) {
-  CoreScene scene(GetParam(), dryWithClusters);
-  CoreScene fresh(GetParam(), heavyWithClusters);
+  BodyScene scene(GetParam(), dryWithClusters);
+  BodyScene fresh(GetParam(), heavyWithClusters);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   for (int i = 0; i < scene.body().m_nodes.size(); ++i) scene.body().m_nodes[i].m_x *= btVector3(2, 1, btScalar(0.5));
@@ -89,22 +95,22 @@ TEST_P(ClusterMassesAreCached, ShapeAtRestIsThatOfTheDryClothNotTheDeformedOne) 
 // Damping pulls each node towards the velocity of its cluster, which is a mean by mass. Only the two position-based
 // worlds do that.
 TEST_P(ClusterMassesAreCached, RunsLikeABodyBuiltHeavy) {
-  CoreScene scene(GetParam(), dryWithClusters);
-  CoreScene fresh(GetParam(), heavyWithClusters);
-  CoreScene dry(GetParam(), dryWithClusters);
+  BodyScene scene(GetParam(), dryWithClusters);
+  BodyScene fresh(GetParam(), heavyWithClusters);
+  BodyScene dry(GetParam(), dryWithClusters);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   cloth.setHeld(unevenWater(cloth));
-  for (CoreScene* each : {&scene, &fresh, &dry}) {
+  for (BodyScene* each : {&scene, &fresh, &dry}) {
     for (int c = 0; c < each->body().m_clusters.size(); ++c) each->body().m_clusters[c]->m_ndamping = btScalar(0.1);
     for (int i = 0; i < each->body().m_nodes.size(); i += 3) each->body().addVelocity(btVector3(0, 0, 1), i);
-    each->bullet.step(20);
+    each->bullet().step(20);
   }
   const std::vector<btScalar> expected = stateOf(fresh.body());
   // 20 steps amplify the rounding of the caches.
   const double tolerance = kIsDouble ? 1e-9 : 2e-3;
   EXPECT_LT(largestDifference(stateOf(scene.body()), expected), tolerance);
-  if (!scene.bullet.isDeformable()) {
+  if (!scene.bullet().isDeformable()) {
     EXPECT_GT(largestDifference(stateOf(dry.body()), expected), 10 * tolerance) << "masses matter here";
   }
 }

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // When Bullet's lists of contacts are filled, which collision flags fill them, and which it forgets to empty.
 
+#include "bullet_wetcloth/bullet/Contacts.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ContactScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/RigidBody.h"
 
 #include <algorithm>
 

@@ -2,7 +2,15 @@
 // The deformable world caches node masses in two more places: its mass preconditioner, refreshed only when the number
 // of nodes changes, and each anchor's m_c0 and m_c2, computed once by btSoftBody::appendDeformableAnchor().
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/Patches.h"
+#include "tests/support/RigidBody.h"
+#include "tests/support/UnevenWater.h"
+
+#include <gtest/gtest.h>
 
 #include <BulletSoftBody/btDeformableBackwardEulerObjective.h>
 
@@ -30,21 +38,21 @@ class DeformableCachesMasses : public testing::TestWithParam<WorldKind> {
 
 // The fact.
 TEST_P(DeformableCachesMasses, InPlainBulletThePreconditionerStaysBehind) {
-  CoreScene scene(GetParam(), squarePatch(4));
-  scene.bullet.step(1);
+  BodyScene scene(GetParam(), squarePatch(4));
+  scene.bullet().step(1);
   const std::vector<btScalar> before = preconditionedOnes(scene.body());
   makeUnevenlyHeavy(scene.body());
-  scene.bullet.step(5);
+  scene.bullet().step(5);
   EXPECT_TRUE(sameBits(preconditionedOnes(scene.body()), before));
 }
 
 TEST_P(DeformableCachesMasses, ThePreconditionerFollowsTheWater) {
-  CoreScene scene(GetParam(), squarePatch(4));
+  BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   cloth.setHeld(unevenWater(cloth));
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   const std::vector<btScalar> known = preconditionedOnes(scene.body());
   for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
     EXPECT_EQ(known[std::size_t(i)], scene.body().m_nodes[i].m_im) << "node " << i;
@@ -86,14 +94,14 @@ struct AnchoredScene {
                 if (heavy) makeUnevenlyHeavy(*body);
                 return body;
               }),
-        box(scene.bullet, std::make_unique<btBoxShape>(btVector3(btScalar(0.2), btScalar(0.2), btScalar(0.2))),
+        box(scene.bullet(), std::make_unique<btBoxShape>(btVector3(btScalar(0.2), btScalar(0.2), btScalar(0.2))),
             btScalar(0.05), btVector3(btScalar(-0.2), 0, 0)) {
-    scene.addDeformableSprings(20, 0.1);
+    scene.addBulletSprings(20, 0.1);
     box.body().setDamping(0, 0);
     scene.body().appendDeformableAnchor(1, &box.body());
     scene.body().appendDeformableAnchor(20, &box.body());
   }
-  CoreScene scene;
+  BodyScene scene;
   RigidBody box;
 };
 
@@ -103,7 +111,7 @@ TEST_P(DeformableCachesMasses, InPlainBulletAnchorsStayBehind) {
   const btMatrix3x3 before = dry.scene.body().m_deformableAnchors[0].m_c0;
   const btScalar inverseMass = dry.scene.body().m_deformableAnchors[0].m_c2;
   makeUnevenlyHeavy(dry.scene.body());
-  dry.scene.bullet.step(5);
+  dry.scene.bullet().step(5);
   EXPECT_TRUE(dry.scene.body().m_deformableAnchors[0].m_c0 == before);
   EXPECT_EQ(dry.scene.body().m_deformableAnchors[0].m_c2, inverseMass);
 }
@@ -133,7 +141,7 @@ TEST_P(DeformableCachesMasses, AnAnchoredClothRunsLikeOneBuiltHeavy) {
   cloth.setHeld(unevenWater(cloth));
   for (AnchoredScene* each : {&wetted, &fresh, &dry}) {
     each->box.body().setLinearVelocity(btVector3(-1, 2, 0));
-    each->scene.bullet.step(60);
+    each->scene.bullet().step(60);
   }
   const std::vector<btScalar> expected = stateOf(fresh.scene.body());
   // The solver stops at a residual of 1e-4 of the first one or so: that, not rounding, sets the tolerance.

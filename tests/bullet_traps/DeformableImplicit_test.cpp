@@ -2,7 +2,16 @@
 // The deformable world with implicit integration starts its solve from Node::m_vn, the velocity at the end of the last
 // step, so a change of m_v alone is lost. Without projection nothing moves at all.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 namespace wetcloth_test::deformable_implicit_test {
 
@@ -22,10 +31,10 @@ struct Push {
 
 // Mean velocity along z after 10 pushes of 0.1 m/s.
 double gain(WorldKind kind, bool lastVelocityToo) {
-  CoreScene scene(kind, sailPatch(4), btVector3(0, 0, 0));
+  BodyScene scene(kind, sailPatch(4), btVector3(0, 0, 0));
   Push push = {&scene.body(), lastVelocityToo};
   scene.world().setInternalTickCallback(Push::apply, &push, true);
-  scene.bullet.step(10);
+  scene.bullet().step(10);
   return meanVelocity(scene.body()).z();
 }
 
@@ -37,12 +46,12 @@ TEST(DeformableImplicit, InPlainBulletAPushOnTheVelocityAloneIsLost) {
 }
 
 TEST(DeformableImplicit, OurPushIsNotLost) {
-  CoreScene scene(WorldKind::deformableImplicit, sailPatch(4), btVector3(0, 0, 0));
+  BodyScene scene(WorldKind::deformableImplicit, sailPatch(4), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
   addCall(wet.add(scene.body()), [](wetcloth::WetCloth& cloth, const wetcloth::Step&) {
     for (int i = 0; i < cloth.nodeCount(); ++i) cloth.push(cloth.body().m_nodes[i], btVector3(0, 0, btScalar(0.1)));
   });
-  scene.bullet.step(10);
+  scene.bullet().step(10);
   EXPECT_NEAR(meanVelocity(scene.body()).z(), 1, 1e-4);
 }
 
@@ -50,13 +59,13 @@ TEST(DeformableImplicit, OurPushIsNotLost) {
 TEST(DeformableImplicit, MomentumOfWaterIsNotLost) {
   double speed[2];
   for (const WorldKind kind : {WorldKind::deformable, WorldKind::deformableImplicit}) {
-    CoreScene scene(kind, sailPatch(4), btVector3(0, 0, 0));
+    BodyScene scene(kind, sailPatch(4), btVector3(0, 0, 0));
     wetcloth::WetClothWorld wet(scene.world());
     wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
     wetcloth::Absorption::Parameters rain;
     rain.waterVelocity = btVector3(0, -8, 0);
     cloth.add<wetcloth::Absorption>(rain);
-    scene.bullet.step(240);
+    scene.bullet().step(240);
     const double saturation = cloth.meanSaturation();
     speed[kind == WorldKind::deformableImplicit] = meanVelocity(scene.body()).y();
     // Each node: (dm u) / (m + dm) with dm = saturation x m.
@@ -67,16 +76,16 @@ TEST(DeformableImplicit, MomentumOfWaterIsNotLost) {
 
 // The fact: documented, since it is not ours to mend.
 TEST(DeformableImplicit, WithoutProjectionNothingMoves) {
-  CoreScene scene(WorldKind::deformableImplicit, sailPatch(4));
-  scene.bullet.deformable().setUseProjection(false);
+  BodyScene scene(WorldKind::deformableImplicit, sailPatch(4));
+  scene.bullet().deformable().setUseProjection(false);
   const std::vector<btScalar> before = stateOf(scene.body());
-  scene.bullet.step(60);
+  scene.bullet().step(60);
   EXPECT_EQ(meanPosition(scene.body()).y(), btScalar(0.5)) << "half a metre up, where it began";
 }
 
 TEST(DeformableImplicit, WithProjectionItFalls) {
-  CoreScene scene(WorldKind::deformableImplicit, sailPatch(4));
-  scene.bullet.step(60);
+  BodyScene scene(WorldKind::deformableImplicit, sailPatch(4));
+  scene.bullet().step(60);
   EXPECT_NEAR(meanPosition(scene.body()).y(), 0.5 - 9.81 * 0.25 * 0.25 / 2, 0.01);
 }
 

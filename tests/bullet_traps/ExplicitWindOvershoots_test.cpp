@@ -2,7 +2,12 @@
 // An explicit wind on light, dry nodes overshoots the speed of the air: the force of the start of the step acts for
 // the whole of it. So ours is semi-implicit, and the explicit one is kept only for the comparison.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 namespace wetcloth_test::explicit_wind_overshoots_test {
 
@@ -14,7 +19,7 @@ constexpr double kAir = 10;  // [m/s]
 double fastest(WorldKind kind, wetcloth::Wind::Integration integration, wetcloth::Wind::Law law) {
   wetcloth::ClothPatch patch = sailPatch(5);
   patch.arealDensity = 0.010;
-  CoreScene scene(kind, patch, btVector3(0, 0, 0));
+  BodyScene scene(kind, patch, btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::Wind::Parameters wind;
   wind.velocity = btVector3(0, 0, btScalar(kAir));
@@ -24,7 +29,7 @@ double fastest(WorldKind kind, wetcloth::Wind::Integration integration, wetcloth
   wet.add(scene.body()).add<wetcloth::Wind>(wind);
   double result = 0;
   for (int step = 0; step < 30; ++step) {
-    scene.bullet.step(1, btScalar(1) / 60);
+    scene.bullet().step(1, btScalar(1) / 60);
     result = std::max(result, largestSpeed(scene.body()));
   }
   return result;

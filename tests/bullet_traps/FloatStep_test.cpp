@@ -2,7 +2,13 @@
 // The soft-rigid and soft-multibody worlds hand the step to their solver as a float even in Bullet's float64 build, so
 // motion agrees with closed forms to 1e-8 or so. Water does not go through that solver and must not lose digits.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 namespace wetcloth_test::float_step_test {
 
@@ -14,8 +20,8 @@ constexpr double kDt = 1.0 / 240;  // not a float
 
 // Velocity after one step of free fall over -g dt, less one.
 double errorOfOneStep(WorldKind kind) {
-  CoreScene scene(kind, squarePatch(2));
-  scene.bullet.step(1, btScalar(kDt));
+  BodyScene scene(kind, squarePatch(2));
+  scene.bullet().step(1, btScalar(kDt));
   return meanVelocity(scene.body()).y() / (-9.81 * kDt) - 1;
 }
 
@@ -33,11 +39,11 @@ TEST(FloatStep, InPlainBulletOnlyTheDeformableWorldKeepsTheStepsDigits) {
 class WaterKeepsItsDigits : public InEveryWorld {};
 
 TEST_P(WaterKeepsItsDigits, WhateverTheSolverDoesToTheStep) {
-  CoreScene scene(GetParam(), squarePatch(3));
+  BodyScene scene(GetParam(), squarePatch(3));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(0.84, 2.0));
   cloth.add<wetcloth::Absorption>();
-  scene.bullet.step(480, btScalar(kDt));
+  scene.bullet().step(480, btScalar(kDt));
   // The application's own step, as Bullet's scalar holds it.
   const double expected = 1 - std::exp(-480 * double(btScalar(kDt)) / 2.0);
   EXPECT_NEAR(cloth.saturation(4), expected, 1e-12 * expected);

@@ -2,13 +2,17 @@
 // In the soft-rigid world the position solve recomputes m_v from positions after the actions and the post-tick
 // callback ran, so velocities written there are lost. The pre-tick callback is the one seam for all three worlds.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 namespace wetcloth_test::late_velocities_are_wiped_test {
 
 namespace {
-
-const btVector3 kNoGravity(0, 0, 0);
 
 class PushingAction : public btActionInterface {
  public:
@@ -27,10 +31,10 @@ void pushAfterTick(btDynamicsWorld* world, btScalar) {
 // The fact, for an action.
 TEST(LateVelocitiesAreWiped, OfAnActionInPlainBullet) {
   for (const WorldKind kind : {WorldKind::softRigid, WorldKind::softMultiBody}) {
-    CoreScene scene(kind, sailPatch(4), kNoGravity);
+    BodyScene scene(kind, sailPatch(4), kNoGravity);
     PushingAction action(scene.body());
     scene.world().addAction(&action);
-    scene.bullet.step(24);
+    scene.bullet().step(24);
     scene.world().removeAction(&action);
     EXPECT_EQ(meanPosition(scene.body()).z(), 0) << kind;
     EXPECT_EQ(meanVelocity(scene.body()).z(), 0) << kind;
@@ -40,9 +44,9 @@ TEST(LateVelocitiesAreWiped, OfAnActionInPlainBullet) {
 // The fact, for the post-tick callback.
 TEST(LateVelocitiesAreWiped, OfThePostTickInPlainBullet) {
   for (const WorldKind kind : {WorldKind::softRigid, WorldKind::softMultiBody}) {
-    CoreScene scene(kind, sailPatch(4), kNoGravity);
+    BodyScene scene(kind, sailPatch(4), kNoGravity);
     scene.world().setInternalTickCallback(pushAfterTick, &scene.body(), false);
-    scene.bullet.step(24);
+    scene.bullet().step(24);
     EXPECT_EQ(meanPosition(scene.body()).z(), 0) << kind;
     EXPECT_EQ(meanVelocity(scene.body()).z(), 0) << kind;
   }
@@ -52,7 +56,7 @@ class OneEarlyPush : public InEveryWorld {};
 
 // 1 m/s, given once: after 0.1 s the cloth is 0.1 m away and still moving.
 TEST_P(OneEarlyPush, Lasts) {
-  CoreScene scene(GetParam(), sailPatch(4), kNoGravity);
+  BodyScene scene(GetParam(), sailPatch(4), kNoGravity);
   wetcloth::WetClothWorld wet(scene.world());
   bool pushed = false;
   addCall(wet.add(scene.body()), [&pushed](wetcloth::WetCloth& cloth, const wetcloth::Step&) {
@@ -60,7 +64,7 @@ TEST_P(OneEarlyPush, Lasts) {
     pushed = true;
     for (int i = 0; i < cloth.nodeCount(); ++i) cloth.push(cloth.body().m_nodes[i], btVector3(0, 0, 1));
   });
-  scene.bullet.step(24);
+  scene.bullet().step(24);
   // Rounding of 24 steps, and the deformable solver's own tolerance.
   EXPECT_NEAR(meanVelocity(scene.body()).z(), 1, 1e-4);
   EXPECT_NEAR(meanPosition(scene.body()).z(), 0.1, 1e-4);

@@ -3,7 +3,11 @@
 // its result. btSoftBodyHelpers can reorder them; for a body that is not ours that is the application's choice, so
 // nothing here may do it.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
 
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
@@ -26,37 +30,37 @@ std::vector<std::pair<int, int>> orderOf(const btSoftBody& body) {
 
 // The fact: another order, the same result, since links that share a node keep theirs.
 TEST(LinkOrder, InPlainBulletReoptimizingKeepsTheResult) {
-  CoreScene one(WorldKind::softRigid, bulletPatch);
-  CoreScene other(WorldKind::softRigid, bulletPatch);
+  BodyScene one(WorldKind::softRigid, bulletPatch);
+  BodyScene other(WorldKind::softRigid, bulletPatch);
   btSoftBodyHelpers::ReoptimizeLinkOrder(&other.body());
   EXPECT_NE(orderOf(one.body()), orderOf(other.body()));
-  one.bullet.step(60);
-  other.bullet.step(60);
+  one.bullet().step(60);
+  other.bullet().step(60);
   EXPECT_TRUE(sameBits(stateOf(one.body()), stateOf(other.body())));
 }
 
 // The fact: any other order gives another result, so reordering a foreign body would not go unnoticed.
 TEST(LinkOrder, InPlainBulletReversingChangesTheResult) {
-  CoreScene one(WorldKind::softRigid, bulletPatch);
-  CoreScene other(WorldKind::softRigid, bulletPatch);
+  BodyScene one(WorldKind::softRigid, bulletPatch);
+  BodyScene other(WorldKind::softRigid, bulletPatch);
   btSoftBody::tLinkArray& links = other.body().m_links;
   for (int i = 0, j = links.size() - 1; i < j; ++i, --j) links.swap(i, j);
-  one.bullet.step(60);
-  other.bullet.step(60);
+  one.bullet().step(60);
+  other.bullet().step(60);
   EXPECT_GT(largestDifference(stateOf(one.body()), stateOf(other.body())), 1e-4);
 }
 
 class LinkOrderIsKept : public InEveryWorld {};
 
 TEST_P(LinkOrderIsKept, OfABodyThatIsNotOurs) {
-  CoreScene scene(GetParam(), bulletPatch);
+  BodyScene scene(GetParam(), bulletPatch);
   const auto before = orderOf(scene.body());
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   cloth.add<wetcloth::Absorption>();
   cloth.add<wetcloth::Wind>({btVector3(1, 2, 3)});
   cloth.add<wetcloth::HookeSprings>();
-  scene.bullet.step(10);
+  scene.bullet().step(10);
   EXPECT_EQ(orderOf(scene.body()), before);
   wet.remove(scene.body());
   EXPECT_EQ(orderOf(scene.body()), before);

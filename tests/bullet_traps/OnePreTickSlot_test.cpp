@@ -2,13 +2,17 @@
 // Bullet has one pre-tick callback, no getter for it, and one user info that setting either callback overwrites.
 // Bullet's own SoftDemo keeps itself in that user info and drags the picked node from its pre-tick callback.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 namespace wetcloth_test::one_pre_tick_slot_test {
 
 namespace {
-
-const btVector3 kNoGravity(0, 0, 0);
 
 // A stand-in for SoftDemo and its pickingPreTickCallback.
 struct PickingApplication {
@@ -31,19 +35,19 @@ void countCalls(btDynamicsWorld* world, btScalar) { ++*static_cast<int*>(world->
 
 // The fact.
 TEST(OnePreTickSlot, InPlainBulletTheSecondCallerWins) {
-  CoreScene scene(WorldKind::softRigid);
+  BodyScene scene(WorldKind::softRigid);
   PickingApplication application;
   int others = 0;
   scene.world().setInternalTickCallback(PickingApplication::pickingPreTickCallback, &application, true);
   scene.world().setInternalTickCallback(countCalls, &others, true);
-  scene.bullet.step(3);
+  scene.bullet().step(3);
   EXPECT_EQ(application.calls, 0);
   EXPECT_EQ(others, 3);
 }
 
 // The fact: the post-tick callback shares the user info.
 TEST(OnePreTickSlot, InPlainBulletThePostTickCallbackTakesTheUserInfo) {
-  CoreScene scene(WorldKind::softRigid);
+  BodyScene scene(WorldKind::softRigid);
   PickingApplication application;
   int others = 0;
   scene.world().setInternalTickCallback(PickingApplication::pickingPreTickCallback, &application, true);
@@ -54,12 +58,12 @@ TEST(OnePreTickSlot, InPlainBulletThePostTickCallbackTakesTheUserInfo) {
 class PickingGoesOn : public InEveryWorld {};
 
 TEST_P(PickingGoesOn, WhileOurWindBlows) {
-  CoreScene scene(GetParam(), sailPatch(6), kNoGravity);
+  BodyScene scene(GetParam(), sailPatch(6), kNoGravity);
   PickingApplication application;
   scene.world().setInternalTickCallback(PickingApplication::pickingPreTickCallback, &application, true);
   wetcloth::WetClothWorld wet(scene.world());
   wet.add(scene.body()).add<wetcloth::Wind>({btVector3(0, 0, 3)});
-  scene.bullet.step(10);
+  scene.bullet().step(10);
   EXPECT_EQ(application.calls, 10);
   EXPECT_EQ(scene.world().getWorldUserInfo(), &application);
   EXPECT_GT(meanVelocity(scene.body()).z(), 0.1) << "the wind blows too";
@@ -69,7 +73,7 @@ TEST_P(PickingGoesOn, WhileOurWindBlows) {
 TEST_P(PickingGoesOn, WithTheResultThatItHasWithoutUs) {
   std::vector<btScalar> results[2];
   for (const bool withUs : {false, true}) {
-    CoreScene scene(GetParam(), sailPatch(6), kNoGravity);
+    BodyScene scene(GetParam(), sailPatch(6), kNoGravity);
     PickingApplication application;
     application.picked = &scene.body().m_nodes[7];
     application.goal = application.picked->m_x + btVector3(0, btScalar(0.01), btScalar(0.02));
@@ -79,19 +83,19 @@ TEST_P(PickingGoesOn, WithTheResultThatItHasWithoutUs) {
       wet = std::make_unique<wetcloth::WetClothWorld>(scene.world());
       wet->add(scene.body());
     }
-    scene.bullet.step(20);
+    scene.bullet().step(20);
     results[withUs] = stateOf(scene.body());
   }
   EXPECT_TRUE(sameBits(results[0], results[1]));
 }
 
 TEST_P(PickingGoesOn, AfterWeLeft) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   PickingApplication application;
   scene.world().setInternalTickCallback(PickingApplication::pickingPreTickCallback, &application, true);
   { wetcloth::WetClothWorld wet(scene.world()); }
   EXPECT_EQ(scene.world().getWorldUserInfo(), &application);
-  scene.bullet.step(5);
+  scene.bullet().step(5);
   EXPECT_EQ(application.calls, 5);
 }
 

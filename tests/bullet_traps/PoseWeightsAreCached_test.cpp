@@ -2,7 +2,13 @@
 // setPose() caches each node's share of the mass, which shape matching uses for the centre and the rotation; calling it
 // again on a running body would take the deformed shape for the pose.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Patches.h"
+#include "tests/support/UnevenWater.h"
 
 namespace wetcloth_test::pose_weights_are_cached_test {
 
@@ -49,17 +55,17 @@ class PoseWeightsAreCached : public InEveryWorld {};
 
 // The fact.
 TEST_P(PoseWeightsAreCached, InPlainBulletTheyDoNotFollowTheNodes) {
-  CoreScene scene(GetParam(), maker(false, false));
+  BodyScene scene(GetParam(), maker(false, false));
   const btScalar before = scene.body().m_pose.m_wgh[0];
   makeUnevenlyHeavy(scene.body());
-  scene.bullet.step(10);
+  scene.bullet().step(10);
   EXPECT_EQ(scene.body().m_pose.m_wgh[0], before);
 }
 
 TEST_P(PoseWeightsAreCached, WetClothHasThoseOfABodyBuiltHeavy) {
   for (const bool pinned : {false, true}) {
-    CoreScene scene(GetParam(), maker(pinned, false));
-    CoreScene fresh(GetParam(), maker(pinned, true));
+    BodyScene scene(GetParam(), maker(pinned, false));
+    BodyScene fresh(GetParam(), maker(pinned, true));
     wetcloth::WetClothWorld wet(scene.world());
     wetcloth::WetCloth& cloth = wet.add(scene.body());
     cloth.setHeld(unevenWater(cloth));
@@ -68,8 +74,8 @@ TEST_P(PoseWeightsAreCached, WetClothHasThoseOfABodyBuiltHeavy) {
 }
 
 TEST_P(PoseWeightsAreCached, ThePoseIsThatOfTheDryClothNotTheDeformedOne) {
-  CoreScene scene(GetParam(), maker(false, false));
-  CoreScene fresh(GetParam(), maker(false, true));
+  BodyScene scene(GetParam(), maker(false, false));
+  BodyScene fresh(GetParam(), maker(false, true));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   for (int i = 0; i < scene.body().m_nodes.size(); ++i) scene.body().m_nodes[i].m_x *= btVector3(2, 1, btScalar(0.5));
@@ -79,14 +85,14 @@ TEST_P(PoseWeightsAreCached, ThePoseIsThatOfTheDryClothNotTheDeformedOne) {
 
 TEST_P(PoseWeightsAreCached, RunsLikeABodyBuiltHeavy) {
   for (const bool pinned : {false, true}) {
-    CoreScene scene(GetParam(), maker(pinned, false));
-    CoreScene fresh(GetParam(), maker(pinned, true));
+    BodyScene scene(GetParam(), maker(pinned, false));
+    BodyScene fresh(GetParam(), maker(pinned, true));
     wetcloth::WetClothWorld wet(scene.world());
     wetcloth::WetCloth& cloth = wet.add(scene.body());
     cloth.setHeld(unevenWater(cloth));
-    for (CoreScene* each : {&scene, &fresh}) {
+    for (BodyScene* each : {&scene, &fresh}) {
       for (int i = 0; i < each->body().m_nodes.size(); i += 3) each->body().addVelocity(btVector3(0, 2, 0), i);
-      each->bullet.step(40);
+      each->bullet().step(40);
     }
     // 40 steps amplify the rounding of the weights.
     EXPECT_LT(largestDifference(stateOf(scene.body()), stateOf(fresh.body())), kIsDouble ? 1e-8 : 2e-2) << pinned;

@@ -2,7 +2,14 @@
 // The pre-tick callback runs once per substep with the substep's dt; what the body sees of it is another matter:
 // m_cfg.timescale scales the step in two of Bullet's worlds and not in the deformable one.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 namespace wetcloth_test::substep_and_timescale_test {
 
@@ -19,7 +26,7 @@ class SubstepAndTimescale : public InEveryWorld {};
 
 // The fact.
 TEST_P(SubstepAndTimescale, InPlainBulletThePreTickRunsOncePerSubstep) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   Ticks ticks;
   scene.world().setInternalTickCallback(Ticks::record, &ticks, true);
   scene.world().stepSimulation(btScalar(0.0170), 10, btScalar(0.004));
@@ -27,7 +34,7 @@ TEST_P(SubstepAndTimescale, InPlainBulletThePreTickRunsOncePerSubstep) {
 }
 
 TEST_P(SubstepAndTimescale, EffectsRunOncePerSubstepWithItsDt) {
-  CoreScene scene(GetParam());
+  BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   std::vector<double> dts;
   std::vector<double> times;
@@ -46,13 +53,13 @@ TEST_P(SubstepAndTimescale, EffectsRunOncePerSubstepWithItsDt) {
 
 // Distance that Bullet itself moves a body of 1 m/s in one second of world time.
 double distanceInOneSecond(WorldKind kind, double timescale) {
-  CoreScene scene(kind, squarePatch(3), btVector3(0, 0, 0));
+  BodyScene scene(kind, squarePatch(3), btVector3(0, 0, 0));
   scene.body().m_cfg.timescale = btScalar(timescale);
   for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
     scene.body().m_nodes[i].m_v = btVector3(0, 1, 0);
     scene.body().m_nodes[i].m_vn = btVector3(0, 1, 0);
   }
-  scene.bullet.step(100, btScalar(0.01));
+  scene.bullet().step(100, btScalar(0.01));
   return meanPosition(scene.body()).y();
 }
 
@@ -67,14 +74,14 @@ TEST_P(SubstepAndTimescale, InPlainBulletTheDeformableWorldIgnoresTheTimescale) 
 TEST_P(SubstepAndTimescale, EffectsSeeTheTimeThatTheBodyLivesThrough) {
   for (const double timescale : {0.5, 1.0, 2.0}) {
     const double lived = distanceInOneSecond(GetParam(), timescale);  // at 1 m/s
-    CoreScene scene(GetParam(), squarePatch(3));
+    BodyScene scene(GetParam(), squarePatch(3));
     scene.body().m_cfg.timescale = btScalar(timescale);
     wetcloth::WetClothWorld wet(scene.world());
     wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(0.84, 2.0));
     cloth.add<wetcloth::Absorption>();
     double told = 0;
     addCall(cloth, [&told](wetcloth::WetCloth&, const wetcloth::Step& step) { told += step.dt; });
-    scene.bullet.step(100, btScalar(0.01));
+    scene.bullet().step(100, btScalar(0.01));
     EXPECT_NEAR(told, lived, 1e-4) << timescale;
     EXPECT_NEAR(cloth.meanSaturation(), 1 - std::exp(-lived / 2.0), 1e-4) << timescale;
   }
@@ -83,13 +90,13 @@ TEST_P(SubstepAndTimescale, EffectsSeeTheTimeThatTheBodyLivesThrough) {
 // A body in falling air, with its timescale: gravity in Step is what Bullet adds.
 TEST_P(SubstepAndTimescale, GravityToldIsTheOneThatBulletAdds) {
   for (const double timescale : {0.5, 1.0}) {
-    CoreScene scene(GetParam(), squarePatch(3));
+    BodyScene scene(GetParam(), squarePatch(3));
     scene.body().m_cfg.timescale = btScalar(timescale);
     wetcloth::WetClothWorld wet(scene.world());
     btVector3 told(0, 0, 0);
     addCall(wet.add(scene.body()),
             [&told](wetcloth::WetCloth&, const wetcloth::Step& step) { told += step.gravity * btScalar(step.dt); });
-    scene.bullet.step(20);
+    scene.bullet().step(20);
     EXPECT_NEAR(told.y(), meanVelocity(scene.body()).y(), 1e-3 * std::fabs(told.y())) << timescale;
   }
 }

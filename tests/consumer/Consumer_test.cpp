@@ -3,9 +3,12 @@
 // version it has.
 
 #include "bullet_wetcloth/Version.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "bullet_wetcloth/fwd.h"
 #include "tests/consumer/WithoutRtti.h"
-#include "tests/support/CoreScene.h"
+#include "tests/support/BodyScene.h"
+
+#include <gtest/gtest.h>
 
 #include <string>
 #include <utility>
@@ -15,17 +18,17 @@ namespace wetcloth_test::consumer_test {
 namespace {
 
 TEST(Consumer, FindsEffectsWithoutRtti) {
-  CoreScene scene(WorldKind::softRigid);
+  BodyScene scene(WorldKind::softRigid);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   EXPECT_EQ(consumer::stepsOfSponge(cloth), -1);
   consumer::addSponge(cloth);
-  scene.bullet.step(3);
+  scene.bullet().step(3);
   EXPECT_EQ(consumer::stepsOfSponge(cloth), 3);
 }
 
 TEST(Consumer, AndThisPartOfTheProgramTellTheSameEffectsApart) {
-  CoreScene scene(WorldKind::softRigid);
+  BodyScene scene(WorldKind::softRigid);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   consumer::addRain(cloth);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Zlib
 // What an application's btIDebugDraw is given: triangles by saturation, and the wind on them.
 
+#include "tests/support/BodyState.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Patches.h"
+#include "tests/support/Rejection.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <LinearMath/btIDebugDraw.h>

@@ -2,6 +2,9 @@
 // A user's vertex buffer: what lands where in it, and what is refused.
 
 #include "tests/support/ClothScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Patches.h"
+#include "tests/support/Rejection.h"
 
 #include <BulletSoftBody/btDefaultSoftBodySolver.h>
 

@@ -2,7 +2,12 @@
 // Where a cloth is in contact with water: a constant, an array, a function of position and normal; and when the
 // effect has nothing to do.
 
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/Patches.h"
+#include "tests/support/Rejection.h"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

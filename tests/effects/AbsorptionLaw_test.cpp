@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Zlib
 // How much water a node holds after a time: the exponential law, forward Euler, the ramp.
 
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 #include <cmath>
 #include <limits>

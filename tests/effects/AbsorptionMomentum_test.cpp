@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Zlib
 // Water that arrives brings its own velocity: v' = (m v + dm u) / (m + dm).
 
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 #include <cmath>
 

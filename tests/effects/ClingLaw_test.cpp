@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Zlib
 // What a bond gives of an impulse, and what Cling asks of its parameters and of a body.
 
+#include "bullet_wetcloth/bullet/Contacts.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/ClothScene.h"
 #include "tests/support/ContactScene.h"
+#include "tests/support/Rejection.h"
+#include "tests/support/RigidBody.h"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

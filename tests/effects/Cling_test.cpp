@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: Zlib
 // A wet cloth on surfaces: how much it holds, how it lets go, and what it does to rigid bodies.
 
+#include "bullet_wetcloth/bullet/Contacts.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/Bodies.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/ClothScene.h"
 #include "tests/support/ContactScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/RigidBody.h"
 
 namespace wetcloth_test::cling_test {
 namespace {
@@ -25,7 +35,7 @@ class Stuck {
     scene.cloth().setSaturation(saturation);
   }
 
-  static ClothScene::Builder below(WorldKind kind) {
+  static BodyBuilder below(WorldKind kind) {
     Lying lying;
     lying.height = -0.99 * kMargin;
     return lying.builder(kind);

@@ -2,7 +2,12 @@
 // The audit of whole cloths: between bodies, without a trace on their motion, and through all that may happen to a body
 // while it runs.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Patches.h"
 
 #include <LinearMath/btIDebugDraw.h>
 
@@ -19,30 +24,30 @@ using wetcloth::Passage;
 class TwoSheets {
  public:
   TwoSheets(WorldKind kind, int n, bool springs = true)
-      : lower(kind, squarePatch(n), btVector3(0, 0, 0)), m_upper(upperPatch(n).build(lower.bullet.info())) {
-    lower.bullet.add(*m_upper);
+      : lower(kind, squarePatch(n), btVector3(0, 0, 0)), m_upper(upperPatch(n).build(lower.bullet().info())) {
+    lower.bullet().add(*m_upper);
     for (btSoftBody* body : {&lower.body(), m_upper.get()}) {
       body->m_cfg.collisions = 0;
       body->setActivationState(DISABLE_DEACTIVATION);
     }
-    if (springs) lower.addDeformableSprings(20, 0);
+    if (springs) lower.addBulletSprings(20, 0);
     for (int i = 0; i < m_upper->m_nodes.size(); ++i) {
       m_upper->m_nodes[i].m_v = btVector3(0, -2, 0);
       m_upper->m_nodes[i].m_vn = btVector3(0, -2, 0);
     }
   }
   ~TwoSheets() {
-    if (m_upper) lower.bullet.remove(*m_upper);
+    if (m_upper) lower.bullet().remove(*m_upper);
   }
 
   btSoftBody& upper() { return *m_upper; }
   void deleteUpper() {
-    lower.bullet.remove(*m_upper);
+    lower.bullet().remove(*m_upper);
     m_upper.reset();
   }
-  void step(int count) { lower.bullet.step(count, btScalar(1) / 256); }
+  void step(int count) { lower.bullet().step(count, btScalar(1) / 256); }
 
-  CoreScene lower;
+  BodyScene lower;
 
  private:
   static wetcloth::ClothPatch upperPatch(int n) {
@@ -111,8 +116,8 @@ TEST_P(AuditOfBodies, OthersCanBeTurnedOff) {
 
 // A cloth that crumples: the same motion bit for bit with an audit and without.
 std::vector<btScalar> crumple(WorldKind kind, bool audited, long long* candidates = nullptr) {
-  CoreScene scene(kind, hangingPatch(12));
-  scene.addDeformableSprings(20, 0.05);
+  BodyScene scene(kind, hangingPatch(12));
+  scene.addBulletSprings(20, 0.05);
   scene.body().m_cfg.collisions |= btSoftBody::fCollision::VF_SS | btSoftBody::fCollision::SDF_RD;
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -121,7 +126,7 @@ std::vector<btScalar> crumple(WorldKind kind, bool audited, long long* candidate
   }});
   CollisionAudit* const audit = audited ? &cloth.add<CollisionAudit>() : nullptr;
   for (int step = 0; step < 200; ++step) {
-    scene.bullet.step(1);
+    scene.bullet().step(1);
     if (audit && step % 50 == 0) audit->look();
   }
   if (audit && candidates) *candidates = audit->totals().candidatePairs;
@@ -135,11 +140,11 @@ TEST_P(AuditOfBodies, ChangesNothing) {
 }
 
 TEST_P(AuditOfBodies, DoesNotWakeASleepingCloth) {
-  CoreScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
+  BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
   CollisionAudit& audit = wet.add(scene.body()).add<CollisionAudit>();
   scene.body().setActivationState(ISLAND_SLEEPING);
-  scene.bullet.step(4);
+  scene.bullet().step(4);
   EXPECT_EQ(scene.body().getActivationState(), ISLAND_SLEEPING);
   EXPECT_EQ(audit.totals().substeps, 3) << "it looks all the same";
 }
@@ -165,10 +170,10 @@ TEST_P(AuditOfBodies, OtherBodiesMayComeAndGo) {
   wetcloth::WetClothWorld wet(sheets.lower.world());
   CollisionAudit& audit = wet.add(sheets.lower.body()).add<CollisionAudit>();
   sheets.step(4);
-  sheets.lower.bullet.remove(sheets.upper());
+  sheets.lower.bullet().remove(sheets.upper());
   sheets.step(4);
   sheets.upper().translate(btVector3(0, -1, 0));  // while it is away: no passage
-  sheets.lower.bullet.add(sheets.upper());
+  sheets.lower.bullet().add(sheets.upper());
   sheets.step(4);
   sheets.deleteUpper();
   sheets.step(4);
@@ -182,9 +187,9 @@ TEST_P(AuditOfBodies, ItsOwnBodyMayLeaveAndComeBack) {
   wet.setLog({});
   CollisionAudit& audit = wet.add(sheets.lower.body()).add<CollisionAudit>();
   sheets.step(4);
-  sheets.lower.bullet.remove(sheets.lower.body());
+  sheets.lower.bullet().remove(sheets.lower.body());
   sheets.step(40);  // the other sheet falls past the place
-  sheets.lower.bullet.add(sheets.lower.body());
+  sheets.lower.bullet().add(sheets.lower.body());
   sheets.step(4);
   audit.look();
   EXPECT_EQ(audit.totals().passages(), 0);
@@ -215,14 +220,14 @@ void explode(btSoftBody& body, int round) {
 
 TEST_P(AuditOfBodies, AnExplodedSheetIsLookedAtUpToTheLimitWhichIsSaidOnce) {
   for (const bool limited : {false, true}) {
-    CoreScene scene(GetParam(), squarePatch(20), btVector3(0, 0, 0));
+    BodyScene scene(GetParam(), squarePatch(20), btVector3(0, 0, 0));
     wetcloth::WetClothWorld wet(scene.world());
     std::vector<std::string> said;
     wet.setLog([&said](const std::string& message) { said.push_back(message); });
     CollisionAudit::Parameters parameters;
     parameters.mostPairsPerFace = limited ? 20 : 1000000;
     CollisionAudit& audit = wet.add(scene.body()).add<CollisionAudit>(parameters);
-    scene.bullet.step(1);
+    scene.bullet().step(1);
     audit.look();
     EXPECT_EQ(audit.totals().incompleteSubsteps, 0);
     const long long before = audit.totals().candidatePairs;
@@ -275,7 +280,7 @@ TEST_P(AuditOfBodies, DrawsThePassagesOfTheLastSubstep) {
 }
 
 TEST_P(AuditOfBodies, ARopeHasNothingToLookAt) {
-  CoreScene scene(GetParam(), [](btSoftBodyWorldInfo& info) {
+  BodyScene scene(GetParam(), [](btSoftBodyWorldInfo& info) {
     return std::unique_ptr<btSoftBody>(
         btSoftBodyHelpers::CreateRope(info, btVector3(0, 0, 0), btVector3(1, 0, 0), 5, 1));
   });

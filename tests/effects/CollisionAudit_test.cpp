@@ -2,8 +2,10 @@
 // The audit counts what passes through what: hand-made motions with passages that can be counted by hand, in each of
 // Bullet's worlds. Bodies without links move freely, so each node goes where its velocity takes it.
 
+#include "tests/support/Bodies.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
-#include "tests/support/CoreScene.h"
+#include "tests/support/InEveryWorld.h"
 
 #include <LinearMath/btIDebugDraw.h>
 
@@ -19,7 +21,6 @@ using wetcloth::CollisionAudit;
 using wetcloth::Passage;
 using wetcloth::collision::Pair;
 
-const btVector3 kNoGravity(0, 0, 0);
 const double kDt = kExactSubstep;
 
 btScalar real(double value) { return static_cast<btScalar>(value); }

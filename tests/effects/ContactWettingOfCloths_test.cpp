@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Zlib
 // Water between two cloths that touch: what one gives the other takes, until they are equally wet.
 
+#include "bullet_wetcloth/bullet/Contacts.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/ClothScene.h"
 #include "tests/support/ContactScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/RigidBody.h"
 
 namespace wetcloth_test::contact_wetting_of_cloths_test {
 namespace {

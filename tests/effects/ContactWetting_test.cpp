@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: Zlib
 // Water from wet rigid bodies: the law, the film's balance, its momentum, and which nodes get it.
 
+#include "bullet_wetcloth/bullet/Contacts.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/ClothScene.h"
 #include "tests/support/ContactScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Rejection.h"
+#include "tests/support/RigidBody.h"
 
 namespace wetcloth_test::contact_wetting_test {
 namespace {

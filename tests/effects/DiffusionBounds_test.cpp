@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Zlib
 // Diffusion never makes a node negative or over-full, and keeps water and momentum: any step, any mesh, any method.
 
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/ClothScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 #include "tests/support/TransportScene.h"
 
 namespace wetcloth_test::diffusion_bounds_test {

@@ -4,6 +4,8 @@
 #include "bullet_wetcloth/numerics/DiffusionSolver.h"
 #include "tests/support/TransportScene.h"
 
+#include <gtest/gtest.h>
+
 namespace wetcloth_test::diffusion_closed_forms_test {
 
 using namespace transport;

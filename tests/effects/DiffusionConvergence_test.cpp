@@ -2,7 +2,12 @@
 // Diffusion: order in the spacing on good and bad meshes, in the step when D depends on the saturation, and that the
 // three methods and mirrored meshes agree.
 
+#include "tests/support/BulletWorld.h"
+#include "tests/support/ClothScene.h"
+#include "tests/support/Patches.h"
 #include "tests/support/TransportScene.h"
+
+#include <gtest/gtest.h>
 
 namespace wetcloth_test::diffusion_convergence_test {
 

@@ -3,8 +3,15 @@
 
 #include "bullet_wetcloth/effects/Dripping.h"
 
+#include "tests/support/Bodies.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
-#include "tests/support/CoreScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
+#include "tests/support/Rejection.h"
+#include "tests/support/RigidBody.h"
 
 #include <cmath>
 #include <limits>

@@ -3,8 +3,11 @@
 
 #include "bullet_wetcloth/effects/Dripping.h"
 
+#include "tests/support/Bodies.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
-#include "tests/support/CoreScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Patches.h"
 
 #include <cmath>
 #include <limits>
@@ -172,7 +175,7 @@ std::vector<int> dripping(ClothScene& scene, Dripping::Parameters parameters = {
   return nodes;
 }
 
-ClothScene::Builder built(const wetcloth::ClothPatch& patch, const std::function<void(btSoftBody&)>& prepare) {
+BodyBuilder built(const wetcloth::ClothPatch& patch, const std::function<void(btSoftBody&)>& prepare) {
   return [=](btSoftBodyWorldInfo& info) {
     std::unique_ptr<btSoftBody> body = patch.build(info);
     prepare(*body);

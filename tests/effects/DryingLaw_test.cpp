@@ -5,6 +5,8 @@
 
 #include "tests/support/ClothScene.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <vector>
 

@@ -3,7 +3,11 @@
 
 #include "bullet_wetcloth/effects/Drying.h"
 
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Patches.h"
 
 #include <cmath>
 #include <vector>

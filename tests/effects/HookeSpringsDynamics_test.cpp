@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Zlib
 // Springs in motion: the force itself, conserved quantities, periods, stiff springs and long steps.
 
+#include "tests/support/Bodies.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +21,6 @@ using wetcloth::Hook;
 using wetcloth::HookeSprings;
 
 constexpr double kPi = 3.14159265358979323846;
-const btVector3 kNoGravity(0, 0, 0);
 
 HookeSprings::Parameters springs(double stiffness) {
   HookeSprings::Parameters parameters;

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // When an immersed cloth costs nothing, and that it begins to soak in the very step in which it gets wet.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "bullet_wetcloth/effects/Immersion.h"
-#include "tests/support/CoreScene.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Patches.h"
 
 namespace wetcloth_test::immersion_idles_test {
 
@@ -30,10 +35,10 @@ struct Pool {
   Pool(WorldKind kind, const wetcloth::ClothPatch& patch, double level, const btVector3& gravity = kEarthGravity)
       : scene(kind, patch, gravity), wet(scene.world()), cloth(wet.add(scene.body(), fabricOf(1, 0.01))) {
     scene.body().setActivationState(DISABLE_DEACTIVATION);
-    scene.addDeformableSprings(20, 0.1);
+    scene.addBulletSprings(20, 0.1);
     effect = &cloth.add<Immersion>({levelAt(level)});
   }
-  CoreScene scene;
+  BodyScene scene;
   wetcloth::WetClothWorld wet;
   wetcloth::WetCloth& cloth;
   Immersion* effect = nullptr;
@@ -44,9 +49,9 @@ struct Pool {
 TEST_P(ImmersionInWorld, AFallingClothSoaksInTheVeryStepThatItsFirstNodeIsBelow) {
   for (const double height : {0.002, 0.1, 5.0}) {
     Pool pool(GetParam(), hangingPatch(4), -height, btVector3(0, 0, 0));
-    pool.scene.bullet.step(100);
+    pool.scene.bullet().step(100);
     const long long settled = pool.effect->nodesVisited();
-    pool.scene.bullet.step(10);
+    pool.scene.bullet().step(10);
     EXPECT_EQ(pool.effect->nodesVisited(), settled) << "at rest above, " << height;
     for (int i = 12; i < 16; ++i) pool.scene.body().m_nodes[i].m_im = pool.scene.body().m_nodes[0].m_im;  // let go
     for (int i = 0; i < 16; ++i) {
@@ -55,7 +60,7 @@ TEST_P(ImmersionInWorld, AFallingClothSoaksInTheVeryStepThatItsFirstNodeIsBelow)
     bool wasBelow = false;
     for (int step = 0; step < 1000 && !wasBelow; ++step) {
       wasBelow = isAnyBelow(pool.scene.body(), -height);  // as the step begins, which is when water arrives
-      pool.scene.bullet.step(1);
+      pool.scene.bullet().step(1);
       EXPECT_EQ(pool.cloth.ledger().held > 0, wasBelow) << height << " m, step " << step;
     }
     EXPECT_TRUE(wasBelow) << height;
@@ -67,7 +72,7 @@ TEST_P(ImmersionInWorld, AFallingClothSoaksInTheVeryStepThatItsFirstNodeIsBelow)
 TEST_P(ImmersionInWorld, OneNodeThatIsDrawnUnderIsNoticed) {
   for (const int phase : {0, 7, 14, 21, 28}) {
     Pool pool(GetParam(), hangingPatch(8), -0.05, btVector3(0, 0, 0));
-    pool.scene.bullet.step(100 + phase);
+    pool.scene.bullet().step(100 + phase);
     ASSERT_EQ(pool.cloth.ledger().held, 0);
     btSoftBody::Node& corner = pool.scene.body().m_nodes[0];
     corner.m_im = 0;
@@ -75,7 +80,7 @@ TEST_P(ImmersionInWorld, OneNodeThatIsDrawnUnderIsNoticed) {
     for (int step = 0; step < 10 && !wasBelow; ++step) {
       corner.m_x.setY(corner.m_x.y() - btScalar(0.0125));
       wasBelow = isAnyBelow(pool.scene.body(), -0.05);
-      pool.scene.bullet.step(1);
+      pool.scene.bullet().step(1);
       EXPECT_EQ(pool.cloth.saturation(0) > 0, wasBelow) << "phase " << phase << ", step " << step;
     }
     EXPECT_TRUE(wasBelow);
@@ -84,16 +89,16 @@ TEST_P(ImmersionInWorld, OneNodeThatIsDrawnUnderIsNoticed) {
 
 TEST_P(ImmersionInWorld, SoaksWhatHangsInTheWaterAndThenIdles) {
   Pool pool(GetParam(), hangingPatch(5), 0.4, btVector3(0, 0, 0));
-  pool.scene.bullet.step(240);                                                            // 100 time constants
+  pool.scene.bullet().step(240);                                                          // 100 time constants
   for (int i = 0; i < 25; ++i) EXPECT_EQ(pool.cloth.saturation(i), i < 10 ? 1 : 0) << i;  // rows at 0 and 0.25
   const long long visited = pool.effect->nodesVisited();
   const long long commits = pool.cloth.masses().commits();
-  pool.scene.bullet.step(50);
+  pool.scene.bullet().step(50);
   EXPECT_EQ(pool.effect->nodesVisited(), visited);
   EXPECT_EQ(pool.cloth.masses().commits(), commits);
 
   pool.cloth.setSaturation(0.5);
-  pool.scene.bullet.step(240);
+  pool.scene.bullet().step(240);
   EXPECT_EQ(pool.cloth.saturation(3), 1) << "water set by hand";
   EXPECT_EQ(pool.cloth.saturation(20), 0.5);
 }
@@ -101,46 +106,46 @@ TEST_P(ImmersionInWorld, SoaksWhatHangsInTheWaterAndThenIdles) {
 TEST_P(ImmersionInWorld, AClothThatIsFullCostsNothingThoughItMoves) {
   Pool pool(GetParam(), squarePatch(4), 10);
   pool.cloth.setSaturation(1);
-  pool.scene.bullet.step(1);
+  pool.scene.bullet().step(1);
   const long long visited = pool.effect->nodesVisited();
-  pool.scene.bullet.step(50);  // it falls
+  pool.scene.bullet().step(50);  // it falls
   EXPECT_EQ(pool.effect->nodesVisited(), visited);
 }
 
 TEST_P(ImmersionInWorld, AClothThatIsLiftedOutTakesNoMore) {
   Pool pool(GetParam(), hangingPatch(4), 2, btVector3(0, 0, 0));
-  pool.scene.bullet.step(1);
+  pool.scene.bullet().step(1);
   const double held = pool.cloth.ledger().held;
   ASSERT_GT(held, 0);
   for (int i = 0; i < 16; ++i) pool.scene.body().m_nodes[i].m_x += btVector3(0, 5, 0);
-  pool.scene.bullet.step(100);
+  pool.scene.bullet().step(100);
   EXPECT_EQ(pool.cloth.ledger().held, held);
 }
 
 TEST_P(ImmersionInWorld, APinnedNodeSoaksAndStaysPinned) {
   Pool pool(GetParam(), hangingPatch(4), 2);
-  pool.scene.bullet.step(240);
+  pool.scene.bullet().step(240);
   EXPECT_EQ(pool.cloth.saturation(15), 1);
   EXPECT_EQ(pool.scene.body().m_nodes[15].m_im, 0);
   EXPECT_EQ(pool.scene.body().m_nodes[15].m_x.y(), 1);
 }
 
 TEST_P(ImmersionInWorld, GoesOnWhenTheBodyIsCutEvenIfThereIsNoWaterAtThatMoment) {
-  CoreScene scene(GetParam(), hangingPatch(5));
-  scene.bullet.info().water_normal = btVector3(0, 1, 0);
-  scene.bullet.info().water_offset = -2;
+  BodyScene scene(GetParam(), hangingPatch(5));
+  scene.bullet().info().water_normal = btVector3(0, 1, 0);
+  scene.bullet().info().water_offset = -2;
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog([](const std::string&) {});
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 0.5));
   cloth.add<Immersion>();
-  scene.bullet.step(10);
+  scene.bullet().step(10);
   const double held = cloth.ledger().held;
-  scene.bullet.info().water_normal = btVector3(0, 0, 0);
+  scene.bullet().info().water_normal = btVector3(0, 0, 0);
   ASSERT_TRUE(scene.body().cutLink(scene.body().m_faces[0].m_n[0], scene.body().m_faces[0].m_n[1], btScalar(0.5)));
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_NEAR(cloth.ledger().held, held, 1e-12 * held);
-  scene.bullet.info().water_normal = btVector3(0, 1, 0);
-  scene.bullet.step(10);
+  scene.bullet().info().water_normal = btVector3(0, 1, 0);
+  scene.bullet().step(10);
   ASSERT_EQ(cloth.nodeCount(), 27);
   for (int i = 0; i < 27; ++i) EXPECT_GT(cloth.saturation(i), 0.01) << i;
   EXPECT_LE(std::fabs(cloth.ledger().imbalance()), 1e-12 * held);

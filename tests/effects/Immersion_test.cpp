@@ -2,7 +2,14 @@
 // Nodes below a water surface soak by the fabric's own law; the waterline moves with the cloth and with the water.
 
 #include "bullet_wetcloth/effects/Immersion.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
+#include "tests/support/Rejection.h"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

@@ -694,7 +694,7 @@ TEST(WaterDragParameters, WakeAClothInTheWater) {
   EXPECT_TRUE(water.wakes(sample.cloth(), step));
 }
 
-TEST(ContactWettingParameters, HaveTheFilmsAsTheyAreNow) {
+TEST(ContactWettingFilms, AreGivenAsTheyAreNow) {
   Sample sample;
   auto& wetting = sample.cloth().add<ContactWetting>(Trial<ContactWetting>::after(sample));
   sample.scene.step(2 * kSteps);

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Rain in each of Bullet's worlds: pins, sleep, cuts, places that are no numbers.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "bullet_wetcloth/effects/Rain.h"
-#include "tests/support/CoreScene.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 #include <limits>
 
@@ -16,7 +21,7 @@ class RainInWorld : public InEveryWorld {};
 
 // Free fall beside the rain: g t and the drops' momentum, m v' = m v + dm u, all in one direction.
 TEST_P(RainInWorld, PushesAFreeClothByItsMomentum) {
-  CoreScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
+  BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   scene.body().setActivationState(DISABLE_DEACTIVATION);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -24,7 +29,7 @@ TEST_P(RainInWorld, PushesAFreeClothByItsMomentum) {
   rain.flux = 0.02;
   cloth.add<Rain>(rain);
   const double dry = cloth.totalMass();
-  scene.bullet.step(128, btScalar(1) / 256);
+  scene.bullet().step(128, btScalar(1) / 256);
   const double absorbed = cloth.ledger().absorbed;
   // Edge nodes are light in the same measure as they catch little, so the sheet stays flat and level; what is lost by
   // float32 positions, from which Bullet takes velocities: 1e-7 m over 4 ms.
@@ -33,14 +38,14 @@ TEST_P(RainInWorld, PushesAFreeClothByItsMomentum) {
 }
 
 TEST_P(RainInWorld, WetsPinnedNodesAndLeavesThemPinned) {
-  CoreScene scene(GetParam(), hangingPatch(5));
+  BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   Rain::Parameters rain;
   rain.direction = btVector3(0, 0, -1);  // across the hanging cloth
   rain.flux = 0.1;
   cloth.add<Rain>(rain);
-  scene.bullet.step(60);
+  scene.bullet().step(60);
   for (int i = 20; i < 25; ++i) {
     EXPECT_GT(cloth.saturation(i), 0.01) << i;
     EXPECT_EQ(scene.body().m_nodes[i].m_im, 0);
@@ -51,13 +56,13 @@ TEST_P(RainInWorld, WetsPinnedNodesAndLeavesThemPinned) {
 }
 
 TEST_P(RainInWorld, KeepsABodyAwakeThatItsDropsWouldCarryOff) {
-  CoreScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
+  BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   cloth.setSaturation(1);
   Rain& rain = cloth.add<Rain>();
   scene.body().setActivationState(ISLAND_SLEEPING);
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_TRUE(scene.body().isActive());
   adjust(rain, [](auto& p) { p.flux = 0; });
   scene.body().setActivationState(ISLAND_SLEEPING);
@@ -67,7 +72,7 @@ TEST_P(RainInWorld, KeepsABodyAwakeThatItsDropsWouldCarryOff) {
 
 TEST_P(RainInWorld, GoesOnWhenTheBodyIsCut) {
   for (const bool selfShelter : {false, true}) {
-    CoreScene scene(GetParam(), hangingPatch(5));
+    BodyScene scene(GetParam(), hangingPatch(5));
     wetcloth::WetClothWorld wet(scene.world());
     wet.setLog([](const std::string&) {});
     wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -75,12 +80,12 @@ TEST_P(RainInWorld, GoesOnWhenTheBodyIsCut) {
     parameters.direction = btVector3(0, 0, 1);
     parameters.selfShelter = selfShelter;
     Rain& rain = cloth.add<Rain>(parameters);
-    scene.bullet.step(5);
+    scene.bullet().step(5);
     ASSERT_TRUE(scene.body().cutLink(scene.body().m_faces[0].m_n[0], scene.body().m_faces[0].m_n[1], btScalar(0.5)));
-    scene.bullet.step(1);
+    scene.bullet().step(1);
     ASSERT_EQ(cloth.nodeCount(), 27);
     const double absorbed = cloth.ledger().absorbed;
-    scene.bullet.step(5);
+    scene.bullet().step(5);
     EXPECT_GT(rain.caught(), 0);
     EXPECT_GT(cloth.ledger().absorbed, absorbed);
     EXPECT_LE(std::fabs(cloth.ledger().imbalance()), 1e-12 * cloth.ledger().held);
@@ -89,7 +94,7 @@ TEST_P(RainInWorld, GoesOnWhenTheBodyIsCut) {
 
 TEST_P(RainInWorld, WritesNoNumberThatIsNone) {
   for (const bool selfShelter : {false, true}) {
-    CoreScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
+    BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
     wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
     wetcloth::WetCloth& cloth = wet.add(scene.body());
     Rain::Parameters parameters;

@@ -3,6 +3,8 @@
 
 #include "tests/support/TransportScene.h"
 
+#include <gtest/gtest.h>
+
 namespace wetcloth_test::seepage_test {
 
 using namespace transport;

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Zlib
 // A cloth that soaks gets heavier, softer and shorter, all in one run, and is itself again once it has dried.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "bullet_wetcloth/effects/Swelling.h"
 #include "bullet_wetcloth/effects/WetStiffness.h"
-#include "tests/support/CoreScene.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Patches.h"
 
 #include <cmath>
 #include <vector>
@@ -37,9 +44,9 @@ void addDrying(WetCloth& cloth, const bool& dries) {
 }
 
 /// Lets the cloth come to rest: velocities lose 5 % a step.
-void settle(CoreScene& scene, int steps) {
+void settle(BodyScene& scene, int steps) {
   for (int i = 0; i < steps; ++i) {
-    scene.bullet.step(1);
+    scene.bullet().step(1);
     for (int k = 0; k < scene.body().m_nodes.size(); ++k) {
       scene.body().m_nodes[k].m_v *= btScalar(0.95);
       scene.body().m_nodes[k].m_vn *= btScalar(0.95);
@@ -69,7 +76,7 @@ class SoakSoftenShrink : public InEveryWorld {};
 // (K f(s)), dry, wet, and dry again.
 TEST_P(SoakSoftenShrink, HangingRopeThereAndBack) {
   constexpr int kLinks = 6;
-  CoreScene scene(GetParam(), [](btSoftBodyWorldInfo& info) {
+  BodyScene scene(GetParam(), [](btSoftBodyWorldInfo& info) {
     std::unique_ptr<btSoftBody> rope(btSoftBodyHelpers::CreateRope(
         info, btVector3(0, 0, 0), btVector3(0, btScalar(-0.1 * kLinks), 0), kLinks - 1, 1));
     rope->setActivationState(DISABLE_DEACTIVATION);
@@ -124,7 +131,7 @@ TEST_P(SoakSoftenShrink, PatchThereAndBack) {
   wetcloth::ClothPatch patch = hangingPatch(6);
   patch.pinnedEdges.clear();
   patch.pinnedCorners = {wetcloth::ClothPatch::Corner::topLeft, wetcloth::ClothPatch::Corner::topRight};
-  CoreScene scene(GetParam(), patch);
+  BodyScene scene(GetParam(), patch);
   scene.body().setActivationState(DISABLE_DEACTIVATION);
   wetcloth::WetClothWorld wet(scene.world());
   WetCloth& cloth = wet.add(scene.body(), fabricOf(0.84, 0.1));
@@ -155,7 +162,7 @@ TEST_P(SoakSoftenShrink, PatchThereAndBack) {
   const long long swollen = swelling.linksVisited();
   const long long refreshes = cloth.linkConstants().refreshes();
   const long long damped = stiffness.linksVisited();
-  scene.bullet.step(10);
+  scene.bullet().step(10);
   EXPECT_EQ(swelling.linksVisited(), swollen);
   EXPECT_EQ(cloth.linkConstants().refreshes(), refreshes);
   EXPECT_EQ(stiffness.linksVisited(), damped + 10 * scene.body().m_links.size()) << "damping alone";

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: Zlib
 // Splash in each of Bullet's worlds, and what it refuses.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "bullet_wetcloth/effects/Splash.h"
-#include "tests/support/CoreScene.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
@@ -92,7 +99,7 @@ class SplashInWorld : public InEveryWorld {
 };
 
 TEST_P(SplashInWorld, ARopeCatchesNone) {
-  CoreScene scene(GetParam(), [](btSoftBodyWorldInfo& info) {
+  BodyScene scene(GetParam(), [](btSoftBodyWorldInfo& info) {
     return std::unique_ptr<btSoftBody>(
         btSoftBodyHelpers::CreateRope(info, btVector3(0, 0, 0), btVector3(1, 0, 0), 3, 0));
   });
@@ -108,13 +115,13 @@ TEST_P(SplashInWorld, ARopeCatchesNone) {
 }
 
 TEST_P(SplashInWorld, PushesAFreeClothByItsMomentum) {
-  CoreScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
+  BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   scene.body().setActivationState(DISABLE_DEACTIVATION);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(0.1, 1));
   cloth.add<Splash>(onEverything(0.02));
   const double dry = cloth.totalMass();
-  scene.bullet.step(128, btScalar(1) / 256);
+  scene.bullet().step(128, btScalar(1) / 256);
   // 0.01 kg in half a second, of which 0.015 kg would go in: see RainInWorld for the tolerances.
   const double absorbed = cloth.ledger().absorbed;
   EXPECT_NEAR(absorbed, 0.02 * 0.5, 1e-7);
@@ -122,8 +129,8 @@ TEST_P(SplashInWorld, PushesAFreeClothByItsMomentum) {
 }
 
 TEST_P(SplashInWorld, WetsPinnedNodesGoesOnWhenTheBodyIsCutAndClosesTheLedger) {
-  CoreScene scene(GetParam(), hangingPatch(5));
-  scene.addDeformableSprings(20, 0.1);
+  BodyScene scene(GetParam(), hangingPatch(5));
+  scene.addBulletSprings(20, 0.1);
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog([](const std::string&) {});
   wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -132,9 +139,9 @@ TEST_P(SplashInWorld, WetsPinnedNodesGoesOnWhenTheBodyIsCutAndClosesTheLedger) {
   parameters.velocity = btVector3(0, 0, -3);
   parameters.flux = 0.05;
   Splash& splash = cloth.add<Splash>(parameters);
-  scene.bullet.step(20);
+  scene.bullet().step(20);
   ASSERT_TRUE(scene.body().cutLink(scene.body().m_faces[0].m_n[0], scene.body().m_faces[0].m_n[1], btScalar(0.5)));
-  scene.bullet.step(20);
+  scene.bullet().step(20);
   EXPECT_EQ(cloth.nodeCount(), 27);
   EXPECT_GT(splash.caught(), 0);
   EXPECT_TRUE(isFinite(scene.body()));
@@ -147,13 +154,13 @@ TEST_P(SplashInWorld, WetsPinnedNodesGoesOnWhenTheBodyIsCutAndClosesTheLedger) {
 }
 
 TEST_P(SplashInWorld, KeepsABodyAwakeThatItsDropsWouldCarryOff) {
-  CoreScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
+  BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   cloth.setSaturation(1);
   Splash& splash = cloth.add<Splash>(onEverything(0.01));
   scene.body().setActivationState(ISLAND_SLEEPING);
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_TRUE(scene.body().isActive());
   adjust(splash, [](auto& p) { p.region = Splash::Sphere{btVector3(50, 0, 0), 1}; });
   scene.body().setActivationState(ISLAND_SLEEPING);
@@ -164,7 +171,7 @@ TEST_P(SplashInWorld, KeepsABodyAwakeThatItsDropsWouldCarryOff) {
 TEST_P(SplashInWorld, WritesNoNumberThatIsNone) {
   for (const bool isCone : {false, true}) {
     for (const double dt : {1e-6, 1e3}) {
-      CoreScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
+      BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
       wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
       wetcloth::WetCloth& cloth = wet.add(scene.body());
       Splash::Parameters parameters = onEverything(10);

@@ -2,7 +2,13 @@
 // Water thrown in a sphere or from a hose: what a cloth catches of it, against the stream's own flow.
 
 #include "bullet_wetcloth/effects/Splash.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

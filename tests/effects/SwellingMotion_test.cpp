@@ -2,7 +2,12 @@
 // A cloth that shrinks moves: in every world, with Bullet's links or springs and with HookeSprings.
 
 #include "bullet_wetcloth/effects/Swelling.h"
+#include "tests/support/Bodies.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
 
 #include <cmath>
 
@@ -11,8 +16,6 @@ namespace {
 
 using wetcloth::HookeSprings;
 using wetcloth::Swelling;
-
-const btVector3 kNoGravity(0, 0, 0);
 
 /// A free strip of 1 m x 0.2 m, 11 x 3 nodes.
 wetcloth::ClothPatch strip() {

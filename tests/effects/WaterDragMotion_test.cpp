@@ -4,8 +4,13 @@
 
 #include "bullet_wetcloth/effects/WaterDrag.h"
 
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
-#include "tests/support/CoreScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 #include <cmath>
 #include <random>
@@ -22,7 +27,6 @@ using wetcloth::WaterDrag;
 using wetcloth::WaterSurface;
 
 constexpr double kGravity = 9.81;
-const btVector3 kNoGravity(0, 0, 0);
 
 WaterDrag::Parameters deepWater(const btVector3& current = kNoGravity) {
   WaterSurface surface;
@@ -207,42 +211,42 @@ class WaterDragSleep : public testing::TestWithParam<WorldKind> {};
 
 TEST_P(WaterDragSleep, IsEndedByACurrentALevelThatChangesOrDrainedWater) {
   for (const char* change : {"current", "level", "drained"}) {
-    CoreScene scene(GetParam(), sailPatch(4), kNoGravity);
+    BodyScene scene(GetParam(), sailPatch(4), kNoGravity);
     wetcloth::WetClothWorld wet(scene.world());
     WaterDrag::Parameters parameters = deepWater();
     parameters.surface->offset = -0.5;
     WaterDrag& water = wet.add(scene.body()).add<WaterDrag>(parameters);
-    scene.bullet.step(5 * 240);
+    scene.bullet().step(5 * 240);
     ASSERT_EQ(scene.body().getActivationState(), ISLAND_SLEEPING);
     WaterSurface surface = *parameters.surface;
     adjust(water, [&](auto& p) { p.surface = surface; });
-    scene.bullet.step(60);
+    scene.bullet().step(60);
     ASSERT_EQ(scene.body().getActivationState(), ISLAND_SLEEPING) << "nothing has changed";
     if (change == std::string("current")) surface.velocity = btVector3(0, 0, btScalar(0.1));
     if (change == std::string("level")) surface.offset = -0.6;
     if (change == std::string("drained")) surface.offset = 3;
     adjust(water, [&](auto& p) { p.surface = surface; });
-    scene.bullet.step(2);
+    scene.bullet().step(2);
     EXPECT_TRUE(scene.body().isActive()) << change;
   }
 }
 
 TEST_P(WaterDragSleep, IsNotDisturbedByWaterFarBelow) {
-  CoreScene scene(GetParam(), sailPatch(4), kNoGravity);
+  BodyScene scene(GetParam(), sailPatch(4), kNoGravity);
   wetcloth::WetClothWorld wet(scene.world());
   WaterDrag::Parameters parameters = deepWater();
   parameters.surface->offset = 3;
   WaterDrag& water = wet.add(scene.body()).add<WaterDrag>(parameters);
-  scene.bullet.step(5 * 240);
+  scene.bullet().step(5 * 240);
   WaterSurface surface = *parameters.surface;
   surface.velocity = btVector3(5, 0, 0);
   surface.offset = 2;
   adjust(water, [&](auto& p) { p.surface = surface; });
-  scene.bullet.step(10);
+  scene.bullet().step(10);
   EXPECT_EQ(scene.body().getActivationState(), ISLAND_SLEEPING);
   surface.offset = -0.5;
   adjust(water, [&](auto& p) { p.surface = surface; });
-  scene.bullet.step(2);
+  scene.bullet().step(2);
   EXPECT_TRUE(scene.body().isActive()) << "the flood has reached it";
 }
 

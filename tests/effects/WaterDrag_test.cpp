@@ -3,8 +3,15 @@
 
 #include "bullet_wetcloth/effects/WaterDrag.h"
 
+#include "tests/support/Bodies.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
-#include "tests/support/CoreScene.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
+#include "tests/support/Rejection.h"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
@@ -22,7 +29,6 @@ using wetcloth::WaterSurface;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-const btVector3 kNoGravity(0, 0, 0);
 
 /// Water up to this height [m].
 WaterDrag::Parameters waterUpTo(double height, const btVector3& current = kNoGravity) {

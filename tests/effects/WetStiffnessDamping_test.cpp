@@ -2,7 +2,12 @@
 // Damping along links: exact for one link, never more energy, momentum and spin kept, in every world.
 
 #include "bullet_wetcloth/effects/WetStiffness.h"
+#include "tests/support/Bodies.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 #include <cmath>
 #include <random>
@@ -16,14 +21,13 @@ using wetcloth::Hook;
 using wetcloth::HookeSprings;
 using wetcloth::WetStiffness;
 
-const btVector3 kNoGravity(0, 0, 0);
 // Each link's impulse is rounded once for each of its ends: the issue allows 1e-12 and 1e-5.
 constexpr double kRounding = kIsDouble ? 1e-12 : 1e-5;
 
 WetStiffness::Parameters damping(double dry, double wet) { return {1, 1, dry, wet}; }
 
 /// Two nodes of 0.01 and 0.04 kg on the x axis, 1 m apart, and a link.
-ClothScene::Builder pair() {
+BodyBuilder pair() {
   return [](btSoftBodyWorldInfo& info) {
     const btVector3 positions[] = {btVector3(0, 0, 0), btVector3(1, 0, 0)};
     const btScalar masses[] = {btScalar(0.01), btScalar(0.04)};

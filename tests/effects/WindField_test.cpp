@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Wind that varies in space and time, and what the effect refuses.
 
+#include "tests/support/Bodies.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/Patches.h"
+#include "tests/support/Rejection.h"
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +21,6 @@ using wetcloth::Fabric;
 using wetcloth::Hook;
 using wetcloth::Wind;
 using Law = wetcloth::Wind::Law;
-
-const btVector3 kNoGravity(0, 0, 0);
 
 Wind::Parameters wind(const btVector3& velocity, Law law = Law::quadratic) {
   Wind::Parameters parameters;

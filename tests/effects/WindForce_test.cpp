@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Zlib
 // The air's force on one triangle, against values computed by hand. No Bullet world in it.
 
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+
+#include <gtest/gtest.h>
 
 #include <LinearMath/btQuaternion.h>
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Zlib
 // How a cloth moves through air: falls against their closed forms, terminal speed, stability at any step.
 
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +21,6 @@ using Law = wetcloth::Wind::Law;
 using Integration = wetcloth::Wind::Integration;
 
 constexpr double kGravity = 9.81;
-const btVector3 kNoGravity(0, 0, 0);
 
 Wind::Parameters air(Law law, const btVector3& velocity = btVector3(0, 0, 0)) {
   Wind::Parameters parameters;

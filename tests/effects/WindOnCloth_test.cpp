@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: Zlib
 // What the wind does to a whole cloth in one step: total force, its sharing among corners, relative speed.
 
+#include "tests/support/Bodies.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
@@ -17,7 +24,6 @@ using wetcloth::Wind;
 using Law = wetcloth::Wind::Law;
 
 constexpr double kPi = 3.14159265358979323846;
-const btVector3 kNoGravity(0, 0, 0);
 
 Wind::Parameters wind(const btVector3& velocity, Law law = Law::quadratic) {
   Wind::Parameters parameters;

@@ -2,7 +2,14 @@
 // A node of 1e-5 kg, air of 50 m/s and more, steps of 1/30 s and more: the air never pushes anything past its own
 // velocity, and nothing ever leaves the range of numbers.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 namespace wetcloth_test::light_node_in_astorm_test {
 
@@ -18,12 +25,12 @@ wetcloth::ClothPatch lightSail() {
 }
 
 double fastest(WorldKind kind, const wetcloth::Wind::Parameters& wind, double dt, int steps) {
-  CoreScene scene(kind, lightSail(), btVector3(0, 0, 0));
+  BodyScene scene(kind, lightSail(), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
   wet.add(scene.body()).add<wetcloth::Wind>(wind);
   double result = 0;
   for (int step = 0; step < steps; ++step) {
-    scene.bullet.step(1, btScalar(dt));
+    scene.bullet().step(1, btScalar(dt));
     if (!isFinite(scene.body())) return HUGE_VAL;
     result = std::max(result, largestSpeed(scene.body()));
   }
@@ -68,7 +75,7 @@ TEST_P(LightNodeInAStorm, NeverOutrunsObliqueAirEither) {
 TEST_P(LightNodeInAStorm, IsNeverPushedPastTheAir) {
   const btVector3 air(30, 20, btScalar(34.641016));
   for (const auto law : {wetcloth::Wind::Law::quadratic, wetcloth::Wind::Law::linear}) {
-    CoreScene scene(GetParam(), lightSail(), btVector3(0, 0, 0));
+    BodyScene scene(GetParam(), lightSail(), btVector3(0, 0, 0));
     for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
       btSoftBody::Node& node = scene.body().m_nodes[i];
       node.m_v = node.m_vn = btVector3(btScalar(10 * (i % 3)), btScalar(25 - 7 * (i % 5)), btScalar(20 * (i % 4) - 40));
@@ -126,18 +133,18 @@ TEST_P(LightNodeInAStorm, AMassRatioOfTenThousandIsStable) {
   for (const bool heavyFirst : {false, true}) {
     wetcloth::ClothPatch patch = lightSail();
     patch.pinnedEdges = {wetcloth::ClothPatch::Edge::top};
-    CoreScene scene(GetParam(), [&](btSoftBodyWorldInfo& info) {
+    BodyScene scene(GetParam(), [&](btSoftBodyWorldInfo& info) {
       std::unique_ptr<btSoftBody> body = patch.build(info);
       for (int i = heavyFirst ? 0 : 1; i < body->m_nodes.size(); i += 2) body->m_nodes[i].m_im /= btScalar(1e4);
       return body;
     });
-    scene.addDeformableSprings(5, 0.01);
+    scene.addBulletSprings(5, 0.01);
     wetcloth::WetClothWorld wet(scene.world());
     wetcloth::WetCloth& cloth = wet.add(scene.body());
     cloth.add<wetcloth::Wind>({btVector3(0, 0, 50)});
     cloth.add<wetcloth::Absorption>();
     for (int step = 0; step < 60; ++step) {
-      scene.bullet.step(1, btScalar(1) / 30);
+      scene.bullet().step(1, btScalar(1) / 30);
       ASSERT_TRUE(isFinite(scene.body())) << step;
     }
     // The patch is a metre high and hangs from its edge: it may stretch, and must not explode.
@@ -147,7 +154,7 @@ TEST_P(LightNodeInAStorm, AMassRatioOfTenThousandIsStable) {
 
 // One node made 1e4 times as heavy as its neighbours by water alone.
 TEST_P(LightNodeInAStorm, WaterThatMakesAMassRatioOfTenThousandIsStable) {
-  CoreScene scene(GetParam(), hangingPatch(6));
+  BodyScene scene(GetParam(), hangingPatch(6));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   std::vector<double> held(36, 0);
@@ -155,7 +162,7 @@ TEST_P(LightNodeInAStorm, WaterThatMakesAMassRatioOfTenThousandIsStable) {
   cloth.setHeld(held);
   cloth.add<wetcloth::HookeSprings>(springsOf(2e5, 100));
   for (int step = 0; step < 240; ++step) {
-    scene.bullet.step(1);
+    scene.bullet().step(1);
     ASSERT_TRUE(isFinite(scene.body())) << step;
   }
   EXPECT_LT(largestSpeed(scene.body()), 50);
@@ -163,7 +170,7 @@ TEST_P(LightNodeInAStorm, WaterThatMakesAMassRatioOfTenThousandIsStable) {
 
 // Ten seconds in one step, with everything.
 TEST_P(LightNodeInAStorm, AStepOfTenSecondsStaysFinite) {
-  CoreScene scene(GetParam(), hangingPatch(6));
+  BodyScene scene(GetParam(), hangingPatch(6));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   wetcloth::Absorption::Parameters rain;
@@ -172,7 +179,7 @@ TEST_P(LightNodeInAStorm, AStepOfTenSecondsStaysFinite) {
   cloth.add<wetcloth::Wind>({btVector3(0, 0, 50)});
   cloth.add<wetcloth::HookeSprings>(springsOf(1000, 10));
   for (int step = 0; step < 10; ++step) {
-    scene.bullet.step(1, 10);
+    scene.bullet().step(1, 10);
     ASSERT_TRUE(isFinite(scene.body())) << step;
   }
   EXPECT_LE(cloth.meanSaturation(), 1 + 1e-12);

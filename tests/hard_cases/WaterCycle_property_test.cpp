@@ -2,7 +2,14 @@
 // The whole water cycle at once: rapidcheck makes up meshes, effects, parameters and steps. Whatever it makes, no
 // number stops being finite, no node holds less than nothing or more than it can, and the ledger closes.
 
+#include "tests/support/BodyScene.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Patches.h"
+#include "tests/support/RigidBody.h"
 #include "tests/support/WaterCycle.h"
+
+#include <gtest/gtest.h>
 
 #include <rapidcheck.h>
 
@@ -105,9 +112,9 @@ TEST(WaterCycleProperty, AnyMeshAnyEffectsAnyStep) {
   expectHolds(kIsDouble ? 64 : 32, 300, [] {
     const WorldKind kind = *rc::gen::element(WorldKind::softRigid, WorldKind::deformable);
     const bool isPatch = *rc::gen::inRange(0, 2) == 0;
-    CoreScene scene(kind, [&](btSoftBodyWorldInfo& info) { return isPatch ? anyPatch(info) : anySoup(info); });
-    water_cycle::giveWater(scene.bullet.info(), btScalar(anyBetween(-0.5, 0.5)));
-    water_cycle::letTouch(scene.bullet, scene.body());
+    BodyScene scene(kind, [&](btSoftBodyWorldInfo& info) { return isPatch ? anyPatch(info) : anySoup(info); });
+    water_cycle::giveWater(scene.bullet().info(), btScalar(anyBetween(-0.5, 0.5)));
+    water_cycle::letTouch(scene.bullet(), scene.body());
     wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
     wet.setLog({});
     wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(anyMagnitude(0.05, 100), anyMagnitude(0.01, 1000)));
@@ -130,7 +137,7 @@ TEST(WaterCycleProperty, AnyMeshAnyEffectsAnyStep) {
 TEST(WaterCycleProperty, WaterThatMovesWithTheClothChangesNoVelocity) {
   expectHolds(kIsDouble ? 6400 : 3200, 200, [] {
     const bool isPatch = *rc::gen::inRange(0, 2) == 0;
-    CoreScene scene(WorldKind::softRigid,
+    BodyScene scene(WorldKind::softRigid,
                     [&](btSoftBodyWorldInfo& info) { return isPatch ? anyPatch(info) : anySoup(info); });
     wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
     wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(anyMagnitude(0.05, 100), anyMagnitude(0.01, 1000)));
@@ -160,10 +167,10 @@ TEST(WaterCycleProperty, AnyEffectsInAnyWorld) {
   expectHolds(kIsDouble ? 640 : 320, 60, [] {
     const WorldKind kind = *rc::gen::element(WorldKind::softRigid, WorldKind::softMultiBody, WorldKind::deformable,
                                              WorldKind::deformableImplicit);
-    CoreScene scene(kind, hangingPatch(*rc::gen::inRange(3, 7)));
-    RigidBody box(scene.bullet, std::make_unique<btBoxShape>(btVector3(2, btScalar(0.2), 2)), 0, btVector3(0, -1, 0));
-    water_cycle::giveWater(scene.bullet.info(), btScalar(anyBetween(-0.5, 0.5)));
-    water_cycle::letTouch(scene.bullet, scene.body());
+    BodyScene scene(kind, hangingPatch(*rc::gen::inRange(3, 7)));
+    RigidBody box(scene.bullet(), std::make_unique<btBoxShape>(btVector3(2, btScalar(0.2), 2)), 0, btVector3(0, -1, 0));
+    water_cycle::giveWater(scene.bullet().info(), btScalar(anyBetween(-0.5, 0.5)));
+    water_cycle::letTouch(scene.bullet(), scene.body());
     wetcloth::WetClothWorld wet(scene.world());
     wet.setLog({});
     wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(anyMagnitude(0.3, 5), anyMagnitude(0.1, 10)));
@@ -173,7 +180,7 @@ TEST(WaterCycleProperty, AnyEffectsInAnyWorld) {
     water_cycle::add(cloth, choice);
     const btScalar dt = btScalar(anyMagnitude(1e-3, 1.0 / 60));
     for (int step = 0; step < 40; ++step) {
-      scene.bullet.step(1, dt);
+      scene.bullet().step(1, dt);
       const std::string fault = water_cycle::faultOf(cloth);
       if (!fault.empty()) RC_FAIL("step " + std::to_string(step) + ": " + fault);
     }

@@ -2,6 +2,10 @@
 // The water ledger over a long life: every effect at once, a hundred thousand steps. Only our own part of the step
 // runs, since the water is all that is asked for.
 
+#include "tests/support/BodyScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Patches.h"
 #include "tests/support/WaterCycle.h"
 
 #include <random>
@@ -27,9 +31,9 @@ class WaterLedger : public InEveryWorld {};
 
 TEST_P(WaterLedger, ClosesAfterAHundredThousandStepsOfEverything) {
   std::mt19937 random(5);
-  CoreScene scene(GetParam(), hangingPatch(4));
-  water_cycle::giveWater(scene.bullet.info(), btScalar(0.4));
-  water_cycle::letTouch(scene.bullet, scene.body());
+  BodyScene scene(GetParam(), hangingPatch(4));
+  water_cycle::giveWater(scene.bullet().info(), btScalar(0.4));
+  water_cycle::letTouch(scene.bullet(), scene.body());
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(0.84, 9));
   cloth.setSaturation(0.5);

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Zlib
 // The paper's patch: its springs, each once; its masses, pins and texture coordinates; what it refuses.
 
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
+#include "tests/support/Rejection.h"
 
 #include <algorithm>
 #include <array>

@@ -3,6 +3,8 @@
 
 #include "tests/support/TransportScene.h"
 
+#include <gtest/gtest.h>
+
 #include <limits>
 
 namespace wetcloth_test::intrinsic_delaunay_test {

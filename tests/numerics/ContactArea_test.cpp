@@ -3,7 +3,11 @@
 
 #include "bullet_wetcloth/numerics/ContactArea.h"
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/ClothScene.h"
 #include "tests/support/ContactScene.h"
+
+#include <gtest/gtest.h>
 
 namespace wetcloth_test::contact_area_test {
 

@@ -6,6 +6,8 @@
 #include "bullet_wetcloth/numerics/SparseFactor.h"
 #include "tests/support/TransportScene.h"
 
+#include <gtest/gtest.h>
+
 #include <limits>
 #include <numeric>
 

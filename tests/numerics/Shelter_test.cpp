@@ -3,7 +3,11 @@
 
 #include "bullet_wetcloth/numerics/Shelter.h"
 #include "bullet_wetcloth/effects/Rain.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

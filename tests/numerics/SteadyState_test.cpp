@@ -2,7 +2,13 @@
 // When an effect that moves water may idle, and what makes it go on.
 
 #include "bullet_wetcloth/numerics/SteadyState.h"
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -42,7 +48,7 @@ struct Resting {
     while (steps < most && steadyState.isReached(cloth.body(), cloth.water(), now.gravity)) ++steps;
     return steps;
   }
-  CoreScene scene;
+  BodyScene scene;
   wetcloth::WetClothWorld wet;
   wetcloth::WetCloth& cloth;
   SteadyState steadyState;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/Patches.h"
 
 #include <cmath>
 

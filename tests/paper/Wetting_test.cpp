@@ -2,6 +2,10 @@
 // Basori et al. 2017, claims S4 to S6 and S9: how the cloth takes up water, and how it darkens.
 
 #include "tests/paper/PaperCloth.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/ClothScene.h"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 

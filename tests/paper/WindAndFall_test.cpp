@@ -2,6 +2,13 @@
 // Basori et al. 2017, claims S7, S8, S10 and S11: wind, collision, frame rate, and the fall.
 
 #include "tests/paper/PaperCloth.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/ClothScene.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Zlib
 // Why wet cloth is darker (Lekner & Dorf 1988), the paper's four stages, and roughness.
 
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

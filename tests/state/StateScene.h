@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "bullet_wetcloth/bullet/Contacts.h"
 #include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/ContactScene.h"
-#include "tests/support/CoreScene.h"
+#include "tests/support/Patches.h"
+#include "tests/support/RigidBody.h"
 
 #include <BulletCollision/CollisionShapes/btTriangleMesh.h>
 

@@ -11,11 +11,8 @@
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 #include <btBulletDynamicsCommon.h>
 
-#include <gtest/gtest.h>
-
 #include <memory>
 #include <ostream>
-#include <string>
 #include <vector>
 
 namespace wetcloth_test {
@@ -36,6 +33,7 @@ inline const char* nameOf(WorldKind kind) {
 inline std::ostream& operator<<(std::ostream& out, WorldKind kind) { return out << nameOf(kind); }
 
 inline const btVector3 kEarthGravity(0, btScalar(-9.81), 0);
+inline const btVector3 kNoGravity(0, 0, 0);
 
 /// A Bullet world with everything that it needs, as an application would set it up; nothing of ours in it. Bodies
 /// that are added stay the caller's, who may destroy them before or after the world.
@@ -113,17 +111,7 @@ class BulletWorld {
   std::unique_ptr<btDiscreteDynamicsWorld> m_world;
 };
 
-/// A test that runs in each of Bullet's worlds: `class MyTest : public InEveryWorld {}; TEST_P(MyTest, ...)`, and
-/// WETCLOTH_IN_EVERY_WORLD(MyTest) once.
-class InEveryWorld : public testing::TestWithParam<WorldKind> {};
-
-#define WETCLOTH_IN_EVERY_WORLD(Suite)                                                                            \
-  INSTANTIATE_TEST_SUITE_P(, Suite,                                                                               \
-                           testing::Values(WorldKind::softRigid, WorldKind::softMultiBody, WorldKind::deformable, \
-                                           WorldKind::deformableImplicit),                                        \
-                           [](const auto& test) { return std::string(nameOf(test.param)); })
-
-/// True when the tests run with Bullet's float64 build.
+/// True with Bullet's float64 build.
 inline constexpr bool kIsDouble = sizeof(btScalar) == sizeof(double);
 
 }  // namespace wetcloth_test

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "bullet_wetcloth/bullet/Contacts.h"
-#include "bullet_wetcloth/effects/Cling.h"
-#include "bullet_wetcloth/effects/ContactWetting.h"
-#include "bullet_wetcloth/effects/WetFriction.h"
-#include "tests/support/ClothScene.h"
-#include "tests/support/CoreScene.h"
+#include "tests/support/Bodies.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/Patches.h"
+#include "tests/support/RigidBody.h"
 
 namespace wetcloth_test {
 
@@ -20,11 +18,6 @@ inline int contactFlags(WorldKind kind) {
 /// Collision margin of the cloths [m].
 inline constexpr double kMargin = 0.02;
 
-inline std::unique_ptr<btCollisionShape> box(double halfX, double halfY, double halfZ) {
-  auto shape = std::make_unique<btBoxShape>(btVector3(btScalar(halfX), btScalar(halfY), btScalar(halfZ)));
-  return shape;
-}
-
 /// A cloth of n x n nodes at height y, by default lying on a box whose top is at 0.
 struct Lying {
   int n = 4;
@@ -32,7 +25,7 @@ struct Lying {
   double height = kMargin * 0.9;
   double arealDensity = 0.150;
 
-  ClothScene::Builder builder(WorldKind kind) const {
+  BodyBuilder builder(WorldKind kind) const {
     return [*this, kind](btSoftBodyWorldInfo& info) {
       wetcloth::ClothPatch patch = levelPatch(n, side, arealDensity);
       patch.origin.setY(btScalar(height));

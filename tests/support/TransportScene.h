@@ -3,6 +3,8 @@
 
 #include "bullet_wetcloth/effects/Diffusion.h"
 #include "bullet_wetcloth/effects/Seepage.h"
+#include "tests/support/Bodies.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 
 #include <algorithm>
@@ -56,7 +58,7 @@ inline Mesh grid(int columns, int rows, double width, double height, double jitt
 }
 
 /// A body of this mesh, with the masses of an even cloth; nodes of no area weigh a hundredth of the mean. No links.
-inline ClothScene::Builder clothOf(const Mesh& mesh, double arealDensity = 0.150) {
+inline BodyBuilder clothOf(const Mesh& mesh, double arealDensity = 0.150) {
   std::vector<double> masses(mesh.points.size(), 0);
   double total = 0;
   for (const auto& f : mesh.faces) {

@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Zlib
 // No water is made or lost: initial + absorbed == held + dripped + evaporated, at every step, to rounding.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Patches.h"
+#include "tests/support/UnevenWater.h"
 
 namespace wetcloth_test::water_balance_test {
 
@@ -36,7 +44,7 @@ void swap(wetcloth::WetCloth& cloth, const wetcloth::Step&) {
 class WaterBalance : public InEveryWorld {};
 
 TEST_P(WaterBalance, HoldsInEveryStep) {
-  CoreScene scene(GetParam(), hangingPatch(5));
+  BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(2, 0.5));
   cloth.setSaturation(0.3);
@@ -44,7 +52,7 @@ TEST_P(WaterBalance, HoldsInEveryStep) {
   addCall(cloth, leak, wetcloth::Stage::losses);
   addCall(cloth, swap, wetcloth::Stage::transport);
   for (int step = 0; step < 200; ++step) {
-    scene.bullet.step(1);
+    scene.bullet().step(1);
     expectClosed(cloth);
   }
   EXPECT_GT(cloth.ledger().dripped, 0);
@@ -53,7 +61,7 @@ TEST_P(WaterBalance, HoldsInEveryStep) {
 }
 
 TEST_P(WaterBalance, IsClosedAfterAHundredThousandSteps) {
-  CoreScene scene(GetParam(), squarePatch(2), btVector3(0, 0, 0));
+  BodyScene scene(GetParam(), squarePatch(2), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(2, 0.5));
   cloth.add<wetcloth::Absorption>({std::vector<double>{1, 0.5, 0.1, 0}});
@@ -66,23 +74,23 @@ TEST_P(WaterBalance, IsClosedAfterAHundredThousandSteps) {
 
 // The same with Bullet's own step in between, once.
 TEST(WaterBalanceWithBulletsStep, IsClosedAfterAHundredThousandSteps) {
-  CoreScene scene(WorldKind::softRigid, squarePatch(2));
+  BodyScene scene(WorldKind::softRigid, squarePatch(2));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(2, 0.5));
   cloth.add<wetcloth::Absorption>();
   addCall(cloth, leak, wetcloth::Stage::losses);
   scene.body().m_nodes[0].m_im = 0;  // so that it hangs and does not fall out of the float's range
-  scene.bullet.step(100000);
+  scene.bullet().step(100000);
   EXPECT_GT(cloth.ledger().absorbed, 100 * cloth.ledger().held);
   expectClosed(cloth);
 }
 
 TEST_P(WaterBalance, HoldsWhenWaterIsSetByHand) {
-  CoreScene scene(GetParam(), hangingPatch(4));
+  BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(2, 0.5));
   cloth.add<wetcloth::Absorption>();
-  scene.bullet.step(10);
+  scene.bullet().step(10);
   const double absorbed = cloth.ledger().absorbed;
   cloth.setSaturation(0);
   expectClosed(cloth);
@@ -95,7 +103,7 @@ TEST_P(WaterBalance, HoldsWhenWaterIsSetByHand) {
 
 // Nobody can take more than there is, and only what left is booked.
 TEST_P(WaterBalance, HoldsWhenAnEffectTakesTooMuch) {
-  CoreScene scene(GetParam(), squarePatch(3));
+  BodyScene scene(GetParam(), squarePatch(3));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   cloth.setSaturation(0.5);
@@ -103,7 +111,7 @@ TEST_P(WaterBalance, HoldsWhenAnEffectTakesTooMuch) {
   addCall(
       cloth, [](wetcloth::WetCloth& wetCloth, const wetcloth::Step&) { wetCloth.water().drip(4, 1e6); },
       wetcloth::Stage::losses);
-  scene.bullet.step(2);
+  scene.bullet().step(2);
   EXPECT_EQ(cloth.held(4), 0);
   EXPECT_NEAR(cloth.ledger().dripped, before - cloth.ledger().held, 1e-12 * before);
   expectClosed(cloth);

@@ -2,7 +2,16 @@
 // Effects that follow each other in one step keep the momentum together, however much water arrived in it, is passed on
 // and leaves again.
 
+#include "bullet_wetcloth/bullet/Contacts.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
 #include "tests/support/ContactScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 namespace wetcloth_test::water_momentum_across_effects_test {
 namespace {
@@ -68,7 +77,7 @@ class OneCloth {
   double scale() const { return 10 * cloth.totalMass(); }
 
  private:
-  CoreScene m_scene;
+  BodyScene m_scene;
   wetcloth::WetClothWorld m_wet;
 
  public:
@@ -150,9 +159,9 @@ class TwoCloths {
  public:
   explicit TwoCloths(WorldKind kind) : m_scene(kind, squarePatch(4)), m_wet(m_scene.world(), wetcloth::Hook::manual) {
     m_scene.body().m_cfg.collisions = contactFlags(kind);
-    m_other = squarePatch(4).build(m_scene.bullet.info());
+    m_other = squarePatch(4).build(m_scene.bullet().info());
     m_other->m_cfg.collisions = contactFlags(kind);
-    m_scene.bullet.add(*m_other);
+    m_scene.bullet().add(*m_other);
     first = &m_wet.add(m_scene.body(), fabricOf(200, 1));
     second = &m_wet.add(*m_other, fabricOf(200, 1));
     scatterVelocities(first->body(), 2);
@@ -160,7 +169,7 @@ class TwoCloths {
     touch(first->body(), second->body());
     touch(second->body(), first->body());
   }
-  ~TwoCloths() { m_scene.bullet.remove(*m_other); }
+  ~TwoCloths() { m_scene.bullet().remove(*m_other); }
   TwoCloths(const TwoCloths&) = delete;
   TwoCloths& operator=(const TwoCloths&) = delete;
 
@@ -176,7 +185,7 @@ class TwoCloths {
   void touch(btSoftBody& nodesOf, btSoftBody& facesOf) {
     for (int i = 0; i < nodesOf.m_nodes.size(); ++i) {
       btSoftBody::Face& face = facesOf.m_faces[(5 * i) % facesOf.m_faces.size()];
-      if (m_scene.bullet.isDeformable()) {
+      if (m_scene.bullet().isDeformable()) {
         btSoftBody::DeformableFaceNodeContact contact = {};
         contact.m_node = &nodesOf.m_nodes[i];
         contact.m_face = &face;
@@ -194,7 +203,7 @@ class TwoCloths {
     }
   }
 
-  CoreScene m_scene;
+  BodyScene m_scene;
   std::unique_ptr<btSoftBody> m_other;
   wetcloth::WetClothWorld m_wet;
 };

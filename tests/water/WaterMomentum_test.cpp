@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: Zlib
 // Water that lands brings its own velocity: v' = (m v + dm u) / (m + dm), so momentum is neither made nor lost.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Patches.h"
 
 namespace wetcloth_test::water_momentum_test {
 
@@ -56,7 +63,7 @@ TEST_P(WaterMomentum, IsConservedWhenWaterLands) {
   wetcloth::ClothPatch patch = squarePatch(5);
   patch.pinnedNodes = {0, 6, 13};
   const btVector3 waterVelocity(2, -9, btScalar(0.5));
-  CoreScene scene(GetParam(), patch);
+  BodyScene scene(GetParam(), patch);
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(3, 0.5));
   cloth.add<wetcloth::Absorption>(rain(cloth, waterVelocity));
@@ -76,7 +83,7 @@ TEST_P(WaterMomentum, IsConservedWhenWaterLands) {
 // Each node by itself, in one step.
 TEST_P(WaterMomentum, GivesEachNodeTheVelocityOfAnInelasticImpact) {
   const btVector3 waterVelocity(2, -9, btScalar(0.5));
-  CoreScene scene(GetParam(), squarePatch(4));
+  BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(3, 0.5));
   cloth.setSaturation(0.25);
@@ -100,14 +107,14 @@ TEST_P(WaterMomentum, GivesEachNodeTheVelocityOfAnInelasticImpact) {
 TEST_P(WaterMomentum, PinnedNodesHoldWaterAndStayPinned) {
   wetcloth::ClothPatch patch = squarePatch(5);
   patch.pinnedNodes = {0, 6, 13};
-  CoreScene scene(GetParam(), patch);
+  BodyScene scene(GetParam(), patch);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(3, 0.5));
   wetcloth::Absorption::Parameters parameters;
   parameters.waterVelocity = btVector3(2, -9, 0);
   cloth.add<wetcloth::Absorption>(parameters);
   const std::vector<btScalar> before = stateOf(scene.body());
-  scene.bullet.step(240);
+  scene.bullet().step(240);
   for (const int i : patch.pinnedNodes) {
     EXPECT_EQ(scene.body().m_nodes[i].m_im, 0);
     EXPECT_NEAR(cloth.saturation(i), 1 - std::exp(-2), 1e-5);
@@ -120,7 +127,7 @@ TEST_P(WaterMomentum, PinnedNodesHoldWaterAndStayPinned) {
 
 // Water that leaves has the node's velocity: the node's own does not change.
 TEST_P(WaterMomentum, LeavingWaterChangesNoVelocity) {
-  CoreScene scene(GetParam(), squarePatch(4));
+  BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   cloth.setSaturation(1);
@@ -142,7 +149,7 @@ TEST_P(WaterMomentum, LeavingWaterChangesNoVelocity) {
 
 // The paper's own way makes momentum from nothing: velocities stay while masses grow.
 TEST_P(WaterMomentum, ThePapersWayKeepsVelocities) {
-  CoreScene scene(GetParam(), squarePatch(4));
+  BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = wet.add(scene.body());
   cloth.add<wetcloth::Absorption>(wetcloth::Absorption::Parameters::paper());

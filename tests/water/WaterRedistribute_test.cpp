@@ -2,7 +2,15 @@
 // Water that moves inside the cloth, between two nodes or many at once, conserves mass and momentum, also with water
 // that arrives or leaves in the same step.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
+#include "tests/support/UnevenWater.h"
 
 #include <array>
 #include <limits>
@@ -63,7 +71,7 @@ struct Moving {
     EXPECT_LE(std::fabs(cloth.ledger().imbalance()), 1e-15);
     EXPECT_NEAR(cloth.ledger().held, heldSum(), 1e-15);
   }
-  CoreScene scene;
+  BodyScene scene;
   wetcloth::WetClothWorld wet;
   wetcloth::WetCloth& cloth;
 };

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: Zlib
 // Water that strikes a cloth and is not taken in leaves its momentum, as in an inelastic impact, and nothing else.
 
-#include "tests/support/CoreScene.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BulletWorld.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 #include <array>
 
@@ -45,7 +52,7 @@ struct Struck {
     wet.preTick(btScalar(0.01));
     cloth.remove(effect);
   }
-  CoreScene scene;
+  BodyScene scene;
   wetcloth::WetClothWorld wet;
   wetcloth::WetCloth& cloth;
 };
@@ -160,7 +167,7 @@ TEST_P(WaterRunOff, DoesNotMoveAPinnedNode) {
 
 // The deformable world's implicit solve starts from m_vn.
 TEST_P(WaterRunOff, ReachesBulletsNextStep) {
-  CoreScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
+  BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   scene.body().setActivationState(DISABLE_DEACTIVATION);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -172,7 +179,7 @@ TEST_P(WaterRunOff, ReachesBulletsNextStep) {
         }
       },
       wetcloth::Stage::sources);
-  scene.bullet.step(10, btScalar(1) / 256);
+  scene.bullet().step(10, btScalar(1) / 256);
   // v' = (v - 0.01) / 1.01 ten times. float32 positions of 1 m over 4 ms: 1e-7 m / 4e-3 s in each step.
   EXPECT_NEAR(double(meanVelocity(scene.body()).y()), -(1 - std::pow(1.01, -10)), kIsDouble ? 1e-7 : 3e-4);
 }

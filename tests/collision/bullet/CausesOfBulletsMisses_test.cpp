@@ -3,6 +3,7 @@
 // is odd about its parts. All of these pin what plain Bullet does: a failure means that Bullet changed, and that
 // docs/ccd.md is to be updated.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "command/ccd/BulletCheck.h"
 #include "tests/support/BulletWorld.h"
 

@@ -3,7 +3,12 @@
 
 #include "command/scene/FallingDrops.h"
 
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 namespace wetcloth_test::falling_drops_test {
 namespace {
