@@ -45,7 +45,7 @@ class CutAndRefine : public testing::TestWithParam<std::tuple<WorldKind, Knife>>
 TEST_P(CutAndRefine, KeepsTheWater) {
   const auto [kind, knife] = GetParam();
   BodyScene scene(kind, hangingPatch(6));
-  scene.addBulletSprings(20, 0.1);
+  scene.addBulletSprings(20, 0.1, SpringDamping::everyDirection);
   wetcloth::WetClothWorld wet(scene.world());
   std::vector<std::string> messages;
   wet.setLog([&messages](const std::string& message) { messages.push_back(message); });

@@ -30,7 +30,7 @@ std::vector<btScalar> run(WorldKind kind, Use use) {
   scene.body().m_cfg.piterations = 3;
   scene.body().m_cfg.kDF = btScalar(0.4);
   scene.body().getCollisionShape()->setMargin(btScalar(0.02));
-  scene.addBulletSprings(30, 0.1);
+  scene.addBulletSprings(30, 0.1, SpringDamping::everyDirection);
   RigidBody sphere(scene.bullet(), std::make_unique<btSphereShape>(btScalar(0.25)), 0,
                    btVector3(btScalar(0.55), 0, btScalar(0.5)));
   RigidBody floor(scene.bullet(), std::make_unique<btBoxShape>(btVector3(5, btScalar(0.5), 5)), 0,

@@ -96,7 +96,7 @@ struct AnchoredScene {
               }),
         box(scene.bullet(), std::make_unique<btBoxShape>(btVector3(btScalar(0.2), btScalar(0.2), btScalar(0.2))),
             btScalar(0.05), btVector3(btScalar(-0.2), 0, 0)) {
-    scene.addBulletSprings(20, 0.1);
+    scene.addBulletSprings(20, 0.1, SpringDamping::everyDirection);
     box.body().setDamping(0, 0);
     scene.body().appendDeformableAnchor(1, &box.body());
     scene.body().appendDeformableAnchor(20, &box.body());

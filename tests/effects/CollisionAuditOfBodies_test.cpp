@@ -117,7 +117,7 @@ TEST_P(AuditOfBodies, OthersCanBeTurnedOff) {
 // A cloth that crumples: the same motion bit for bit with an audit and without.
 std::vector<btScalar> crumple(WorldKind kind, bool audited, long long* candidates = nullptr) {
   BodyScene scene(kind, hangingPatch(12));
-  scene.addBulletSprings(20, 0.05);
+  scene.addBulletSprings(20, 0.05, SpringDamping::everyDirection);
   scene.body().m_cfg.collisions |= btSoftBody::fCollision::VF_SS | btSoftBody::fCollision::SDF_RD;
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());

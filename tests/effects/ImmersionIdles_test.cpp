@@ -35,7 +35,7 @@ struct Pool {
   Pool(WorldKind kind, const wetcloth::ClothPatch& patch, double level, const btVector3& gravity = kEarthGravity)
       : scene(kind, patch, gravity), wet(scene.world()), cloth(wet.add(scene.body(), fabricOf(1, 0.01))) {
     scene.body().setActivationState(DISABLE_DEACTIVATION);
-    scene.addBulletSprings(20, 0.1);
+    scene.addBulletSprings(20, 0.1, SpringDamping::everyDirection);
     effect = &cloth.add<Immersion>({levelAt(level)});
   }
   BodyScene scene;

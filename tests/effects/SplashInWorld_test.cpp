@@ -130,7 +130,7 @@ TEST_P(SplashInWorld, PushesAFreeClothByItsMomentum) {
 
 TEST_P(SplashInWorld, WetsPinnedNodesGoesOnWhenTheBodyIsCutAndClosesTheLedger) {
   BodyScene scene(GetParam(), hangingPatch(5));
-  scene.addBulletSprings(20, 0.1);
+  scene.addBulletSprings(20, 0.1, SpringDamping::everyDirection);
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog([](const std::string&) {});
   wetcloth::WetCloth& cloth = wet.add(scene.body());

@@ -138,7 +138,7 @@ TEST_P(LightNodeInAStorm, AMassRatioOfTenThousandIsStable) {
       for (int i = heavyFirst ? 0 : 1; i < body->m_nodes.size(); i += 2) body->m_nodes[i].m_im /= btScalar(1e4);
       return body;
     });
-    scene.addBulletSprings(5, 0.01);
+    scene.addBulletSprings(5, 0.01, SpringDamping::everyDirection);
     wetcloth::WetClothWorld wet(scene.world());
     wetcloth::WetCloth& cloth = wet.add(scene.body());
     cloth.add<wetcloth::Wind>({btVector3(0, 0, 50)});
