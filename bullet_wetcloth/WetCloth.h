@@ -41,7 +41,12 @@ class WETCLOTH_EXPORT WetCloth {
 
   // --- effects ----------------------------------------------------------------------------------------------
 
-  /// Adds an effect, for example `towel.add<Wind>({btVector3(4, 0, 1)})`, and returns it.
+  /// Adds an effect and returns it: `towel.add<Absorption>()`, or with parameters that are set by name:
+  ///
+  ///   Wind::Parameters air;
+  ///   air.velocity = btVector3(4, 0, 1);  // [m/s]
+  ///   towel.add<Wind>(air);
+  ///
   /// Throws std::invalid_argument when a parameter is out of range or the body lacks what the effect needs;
   /// the cloth is then as it was.
   template <class E>
