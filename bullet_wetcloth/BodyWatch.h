@@ -11,11 +11,14 @@ inline namespace WETCLOTH_PRECISION {
 /// Notices that a body was cut or refined: that its nodes, links or faces changed in number.
 class WETCLOTH_EXPORT BodyWatch {
  public:
+  /// The body, as it is now; it must outlive this.
   explicit BodyWatch(const btSoftBody& body) : m_body(body) { remember(); }
 
+  /// Whether the body has another number of nodes, links or faces than was last remembered.
   bool hasChanged() const {
     return nodesChanged() || m_body.m_links.size() != m_links || m_body.m_faces.size() != m_faces;
   }
+  /// Whether it has another number of nodes.
   bool nodesChanged() const { return m_body.m_nodes.size() != m_nodes; }
   /// As last remembered.
   int nodes() const { return m_nodes; }

@@ -49,11 +49,16 @@ struct Step {
 class WETCLOTH_EXPORT Effect {
  public:
   virtual ~Effect() = default;
+  /// For messages and tables: the class's name, without its namespace. It must outlive the effect.
   virtual const char* name() const = 0;
+  /// When in the step it runs. Always the same.
   virtual Stage stage() const = 0;
+  /// The effect has been added, or the body's nodes, links or faces have changed in number: builds what apply() needs.
+  /// Throws std::invalid_argument when the body lacks it.
   virtual void attach(WetCloth& cloth) { static_cast<void>(cloth); }
   /// The effect is about to be removed: gives back what it changed in the body.
   virtual void detach(WetCloth& cloth) { static_cast<void>(cloth); }
+  /// Does its part of one substep. Never throws.
   virtual void apply(WetCloth& cloth, const Step& step) = 0;
   /// Asked instead of apply() at the stages from `forces` on while Bullet lets the body sleep (it does so in
   /// the deformable world only): true wakes the body.
@@ -69,7 +74,9 @@ class WETCLOTH_EXPORT Effect {
 
  protected:
   Effect() = default;
+  /// For derived classes that allow it.
   Effect(const Effect&) = default;
+  /// For derived classes that allow it.
   Effect& operator=(const Effect&) = default;
 };
 

@@ -19,11 +19,13 @@ class WETCLOTH_EXPORT EffectList {
  public:
   /// An effect, and the class that it was added as: &EffectType<E>::tag, or null when that was no more than Effect.
   struct Entry {
-    std::unique_ptr<Effect> effect;
-    const void* type;
+    std::unique_ptr<Effect> effect;  ///< never null
+    const void* type;                ///< the address of its EffectType::tag, or null
+    /// For Range.
     Effect& operator*() const { return *effect; }
   };
 
+  /// For the effects of this cloth, which must outlive it.
   explicit EffectList(WetCloth& cloth) : m_cloth(cloth) {}
 
   /// Attaches the effect, which must not be null, and takes it. Throws what its attach() throws, and then nothing
@@ -34,7 +36,9 @@ class WETCLOTH_EXPORT EffectList {
   /// The same of all, when the cloth goes: what a detach() throws ends in the log.
   void clear();
 
+  /// Whether there are no effects.
   bool empty() const { return m_entries.empty(); }
+  /// Whether one of them runs at this stage.
   bool has(Stage stage) const;
   /// The first that was added as this class, or null.
   Effect* find(const void* type) const {
@@ -43,6 +47,7 @@ class WETCLOTH_EXPORT EffectList {
     }
     return nullptr;
   }
+  /// In the order in which they run.
   const std::vector<Entry>& entries() const { return m_entries; }
 
   /// Applies the effects of these stages, both included. False: one threw and was removed. Never throws.
@@ -52,6 +57,7 @@ class WETCLOTH_EXPORT EffectList {
   /// Whether one of them would wake the body.
   bool wakes(const Step& step) const;
 
+  /// Each effect's own, by its name.
   void transferState(StateArchive& archive);
 
  private:

@@ -13,6 +13,7 @@ inline namespace WETCLOTH_PRECISION {
 /// its library's own. It is no constant, so that no linker folds the tags of two classes into one.
 template <class E>
 struct [[gnu::visibility("default")]] EffectType {
+  /// Only its address counts.
   static inline char tag = 0;
 };
 

@@ -15,6 +15,7 @@ inline namespace WETCLOTH_PRECISION {
 /// Absorption follows Q(t) = capacity (1 - exp(-t / timeConstant)) (Basori et al. 2017, Eq. 2; the constants of
 /// their Table I come from Chen et al. 2012).
 struct WETCLOTH_EXPORT Fabric {
+  /// For tables and messages.
   std::string name = "custom";
 
   /// Water held at saturation per dry mass, the paper's alpha [kg/kg], (0, inf).

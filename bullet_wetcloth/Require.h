@@ -5,7 +5,6 @@
 
 #include <LinearMath/btVector3.h>
 
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -26,31 +25,26 @@ template <class Value>
   throw std::invalid_argument(what + ": " + why);
 }
 
-inline void requirePositive(const std::string& field, double value) {
-  if (!(std::isfinite(value) && value > 0)) rejectValue(field, value, "finite and > 0");
-}
+// These are compiled in the library, not where they are called: an application may be compiled with -ffast-math, for
+// which every number is finite.
 
-inline void requireNotNegative(const std::string& field, double value) {
-  if (!(std::isfinite(value) && value >= 0)) rejectValue(field, value, "finite and >= 0");
-}
+/// Throws std::invalid_argument with the field and the value unless it is finite and > 0.
+WETCLOTH_EXPORT void requirePositive(const std::string& field, double value);
 
-inline void requireFraction(const std::string& field, double value) {
-  if (!(value >= 0 && value <= 1)) rejectValue(field, value, "in [0, 1]");
-}
+/// Throws std::invalid_argument with the field and the value unless it is finite and >= 0.
+WETCLOTH_EXPORT void requireNotNegative(const std::string& field, double value);
 
-inline bool isFinite(const btVector3& v) {
-  return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
-}
+/// Throws std::invalid_argument with the field and the value unless it is in [0, 1].
+WETCLOTH_EXPORT void requireFraction(const std::string& field, double value);
 
-inline void requireFinite(const std::string& field, double value) {
-  if (!std::isfinite(value)) rejectValue(field, value, "finite");
-}
+/// Throws std::invalid_argument with the field and the value unless it is finite.
+WETCLOTH_EXPORT void requireFinite(const std::string& field, double value);
 
-/// Names the axis: "field.x".
-inline void requireFinite(const std::string& field, const btVector3& value) {
-  static const char* const axes[] = {".x", ".y", ".z"};
-  for (int axis = 0; axis < 3; ++axis) requireFinite(field + axes[axis], static_cast<double>(value[axis]));
-}
+/// Throws std::invalid_argument with the field, its axis ("field.x") and the value unless all three are finite.
+WETCLOTH_EXPORT void requireFinite(const std::string& field, const btVector3& value);
+
+/// Whether all three are.
+WETCLOTH_EXPORT bool isFinite(const btVector3& v);
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

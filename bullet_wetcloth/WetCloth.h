@@ -35,13 +35,21 @@ class WETCLOTH_EXPORT WetCloth {
   WetCloth& operator=(const WetCloth&) = delete;
   ~WetCloth();
 
+  /// The application's body, as it gave it to WetClothWorld::add().
   btSoftBody& body() { return m_body; }
+  /// The same, to look at.
   const btSoftBody& body() const { return m_body; }
+  /// What it is made of, as given to WetClothWorld::add().
   const Fabric& fabric() const { return m_fabric; }
 
   // --- effects ----------------------------------------------------------------------------------------------
 
-  /// Adds an effect, for example `towel.add<Wind>({btVector3(4, 0, 1)})`, and returns it.
+  /// Adds an effect and returns it: `towel.add<Absorption>()`, or with parameters that are set by name:
+  ///
+  ///     Wind::Parameters air;
+  ///     air.velocity = btVector3(4, 0, 1);  // [m/s]
+  ///     towel.add<Wind>(air);
+  ///
   /// Throws std::invalid_argument when a parameter is out of range or the body lacks what the effect needs;
   /// the cloth is then as it was.
   template <class E>
@@ -65,6 +73,7 @@ class WETCLOTH_EXPORT WetCloth {
   /// In the order in which the step runs them: `for (Effect& effect : towel.effects())`. Ends with the next add() or
   /// remove().
   Range<Effect, EffectList::Entry> effects() { return Range<Effect, EffectList::Entry>(m_effects.entries()); }
+  /// The same, to look at.
   Range<const Effect, EffectList::Entry> effects() const {
     return Range<const Effect, EffectList::Entry>(m_effects.entries());
   }
@@ -74,6 +83,7 @@ class WETCLOTH_EXPORT WetCloth {
   E* find() {
     return static_cast<E*>(m_effects.find(&EffectType<E>::tag));
   }
+  /// The same, to look at.
   template <class E>
   const E* find() const {
     return static_cast<const E*>(m_effects.find(&EffectType<E>::tag));
@@ -85,6 +95,7 @@ class WETCLOTH_EXPORT WetCloth {
       if (entry.type == &EffectType<E>::tag) action(static_cast<E&>(*entry));
     }
   }
+  /// The same, to look at.
   template <class E, class Action>
   void forEach(Action action) const {
     for (const EffectList::Entry& entry : m_effects.entries()) {
@@ -94,6 +105,7 @@ class WETCLOTH_EXPORT WetCloth {
 
   // --- water ------------------------------------------------------------------------------------------------
 
+  /// Nodes of the body.
   int nodeCount() const { return static_cast<int>(m_water.size()); }
   /// held / capacity of a node: 0 dry, 1 saturated. Throws std::out_of_range.
   double saturation(int node) const;
@@ -107,6 +119,7 @@ class WETCLOTH_EXPORT WetCloth {
   double totalMass() const;
   /// Water of the whole cloth over what it can hold.
   double meanSaturation() const;
+  /// Where the water of the cloth came from and went to [kg]: closes to rounding at every step.
   Ledger ledger() const { return m_water.ledger(); }
 
   /// Sets every node to this saturation, [0, 1], and commits the masses. Velocities stay.
@@ -126,13 +139,21 @@ class WETCLOTH_EXPORT WetCloth {
 
   // --- for effects ------------------------------------------------------------------------------------------
 
+  /// The world that it was added to.
   WetClothWorld& world() { return m_world; }
+  /// The same, to look at.
   const WetClothWorld& world() const { return m_world; }
+  /// The water of each node. Change it inside a step only: setHeld() and setSaturation() are for the time between.
   Water& water() { return m_water; }
+  /// The same, to look at.
   const Water& water() const { return m_water; }
+  /// The one writer of the nodes' masses.
   NodeMasses& masses() { return m_masses; }
+  /// The same, to look at.
   const NodeMasses& masses() const { return m_masses; }
+  /// The one writer of what Bullet derives for each link.
   LinkConstants& linkConstants() { return m_linkConstants; }
+  /// The same, to look at.
   const LinkConstants& linkConstants() const { return m_linkConstants; }
   /// The cloth's triangles at rest. Built when first asked for, and again after the body's nodes, links or faces
   /// changed in number: ask in attach(), which is called then.
@@ -154,6 +175,7 @@ class WETCLOTH_EXPORT WetCloth {
   /// The same at all nodes: their masses are then Water::totalMass().
   void joinArrivals();
 
+  /// Whether the world is a btDeformableMultiBodyDynamicsWorld.
   bool isInDeformableWorld() const { return m_deformable; }
 
   /// A plain message through the world's log callback.

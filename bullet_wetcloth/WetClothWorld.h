@@ -52,15 +52,19 @@ class WETCLOTH_EXPORT WetClothWorld {
   void remove(btSoftBody& body);
   /// The cloth that wraps this body, or null.
   WetCloth* find(const btSoftBody& body);
+  /// The same, to look at.
   const WetCloth* find(const btSoftBody& body) const;
   /// In the order in which they were added: `for (WetCloth& cloth : wet.cloths())`. Ends with the next add() or
   /// remove().
   Range<WetCloth, std::unique_ptr<WetCloth>> cloths() { return Range<WetCloth, std::unique_ptr<WetCloth>>(m_cloths); }
+  /// The same, to look at.
   Range<const WetCloth, std::unique_ptr<WetCloth>> cloths() const {
     return Range<const WetCloth, std::unique_ptr<WetCloth>>(m_cloths);
   }
 
+  /// The application's world.
   btDynamicsWorld& world() { return m_world; }
+  /// The same, to look at.
   const btDynamicsWorld& world() const { return m_world; }
   /// All soft bodies of the world, wet or not.
   const btAlignedObjectArray<btSoftBody*>& softBodies() const;

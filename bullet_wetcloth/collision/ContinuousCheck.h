@@ -22,6 +22,7 @@ enum class Tier {
   exact
 };
 
+/// How closely to look, and what counts as meeting.
 struct CheckSettings {
   /// Width of the time interval in which a contact is no longer looked for more closely, a fraction of the motion, in
   /// [1e-12, 1]. Smaller means a later (closer) reported time and fewer false alarms.
@@ -55,7 +56,9 @@ class WETCLOTH_COLLISION_EXPORT ContinuousCheck {
   template <class Scalar>
   void operator()(Pair pair, const Query<Scalar>* queries, std::size_t count, Contact* contacts) const noexcept;
 
+  /// As given.
   Tier tier() const { return m_tier; }
+  /// As given.
   const CheckSettings& settings() const { return m_settings; }
 
  private:

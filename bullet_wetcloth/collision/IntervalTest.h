@@ -60,4 +60,9 @@ class IntervalTest {
   double m_cubicLimit[2] = {0, 0};  ///< an outer, an inner coefficient beyond this has a proved sign
 };
 
+template <>
+bool IntervalTest<Pair::vertexFace>::apartInPlane() const;
+template <>
+bool IntervalTest<Pair::edgeEdge>::apartInPlane() const;
+
 }  // namespace wetcloth::collision

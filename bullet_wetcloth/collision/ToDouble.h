@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "bullet_wetcloth/IeeeArithmetic.h"
 #include "bullet_wetcloth/collision/Query.h"
 
 #include <cstdint>
 #include <cstring>
-
-// With -ffast-math a compiler may take it that there are no infinities, and reorder sums whose rounding is bounded
-// here.
-#ifdef __FAST_MATH__
-#error "The collision checks are proofs about IEEE arithmetic: compile them without -ffast-math"
-#endif
 
 namespace wetcloth::collision {
 

@@ -17,7 +17,7 @@ class WetClothWorld;
 /// [m/Pa], finite; 0 draws none. Cloths whose bodies left the world are left out. Call it where the application calls
 /// btDynamicsWorld::debugDrawWorld(); the drawer's debug mode is not asked.
 /// Throws std::invalid_argument when metresPerPascal is not finite.
-void debugDraw(const WetClothWorld& world, btIDebugDraw& drawer, double metresPerPascal = 0.01);
+WETCLOTH_EXPORT void debugDraw(const WetClothWorld& world, btIDebugDraw& drawer, double metresPerPascal = 0.01);
 
 /// Colour by which a saturation is told apart on a screen (sRGB, no fabric's own): sand when dry, through green, to a
 /// dark blue from saturation 1 on. Brightness falls all the way. The saturation is clamped to [0, 1].

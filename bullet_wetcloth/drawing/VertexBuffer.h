@@ -17,6 +17,7 @@ struct VertexAttribute {
 /// A user's vertex buffer: floats in memory that the CPU can write, interleaved or not, one vertex per node in the
 /// order of btSoftBody::m_nodes.
 struct VertexBuffer {
+  /// The buffer's first float; the application owns it.
   float* base = nullptr;
   int vertexCount = 0;        ///< that the buffer has room for; must be the number of the body's nodes
   VertexAttribute position;   ///< 3 floats: x, y, z in the world [m]

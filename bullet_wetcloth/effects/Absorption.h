@@ -22,17 +22,19 @@ WETCLOTH_EXPORT double eulerShare(double rate);
 /// Soaks a cloth: each node takes up water according to how far it is exposed to it.
 class WETCLOTH_EXPORT Absorption : public Effect {
  public:
+  /// How the water of a node grows in time.
   enum class Law {
     exponential,   ///< Eq. 2, exact for any step
     forwardEuler,  ///< Eq. 1, the paper's integrator, first order in dt
     ramp           ///< Table II: to capacity in `rampDuration` at constant rate
   };
 
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     /// How far a node is in contact with water, [0, 1]: a constant, one value per node, or a function of the
     /// node's position and normal.
     Exposure exposure = 1.0;
-    Law law = Law::exponential;
+    Law law = Law::exponential;  ///< of a node's water in time
     /// Velocity of the water that arrives [m/s]; v' = (m v + dm u) / (m + dm).
     btVector3 waterVelocity = btVector3(0, 0, 0);
     /// False: the paper's own way, mass is added at unchanged velocity (it makes momentum from nothing).
@@ -47,6 +49,7 @@ class WETCLOTH_EXPORT Absorption : public Effect {
   /// Throws std::invalid_argument naming the field and the value.
   explicit Absorption(Parameters parameters);
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, or when an exposure has not one value per node,
   /// and then nothing has changed.

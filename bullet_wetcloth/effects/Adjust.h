@@ -10,7 +10,7 @@ inline namespace WETCLOTH_PRECISION {
 
 /// Changes some of an effect's parameters, by name, and leaves the others as they are:
 ///
-///   adjust(wind, [](auto& air) { air.velocity = btVector3(0, 0, 2); });
+///     adjust(wind, [](auto& air) { air.velocity = btVector3(0, 0, 2); });
 ///
 /// Throws what the effect's setParameters() throws, and what `change` throws; nothing has changed then.
 template <class E, class Change>

@@ -44,6 +44,7 @@ WETCLOTH_EXPORT BondImpulse bondImpulse(const btVector3& needed, const btVector3
 /// `minimumSaturation` and below, all at `peakSaturation`, `floodedShare` at 1.
 class WETCLOTH_EXPORT Cling : public Effect {
  public:
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     double adhesion = 50;            ///< pull that a bond holds [Pa], [0, inf)
     double shearStrength = 20;       ///< along the surface [Pa], [0, inf)
@@ -55,6 +56,7 @@ class WETCLOTH_EXPORT Cling : public Effect {
   /// Throws std::invalid_argument naming the field and the value.
   explicit Cling(Parameters parameters);
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed. Bonds stay, and
   /// are held by the new stresses.
@@ -65,6 +67,7 @@ class WETCLOTH_EXPORT Cling : public Effect {
 
   /// Nodes that are held now.
   int bonds() const { return m_bondCount; }
+  /// Whether this node is held now; false for one that the body has not.
   bool isBonded(int node) const {
     return node >= 0 && static_cast<std::size_t>(node) < m_bonds.size() &&
            m_bonds[static_cast<std::size_t>(node)].object != nullptr;

@@ -21,9 +21,9 @@ class PassageFinder;
 
 /// Something that went through something else in spite of Bullet.
 struct Passage {
-  double time;         ///< simulated time of the contact [s]
-  btVector3 position;  ///< of the contact [m]
-  collision::Pair pair;
+  double time;               ///< simulated time of the contact [s]
+  btVector3 position;        ///< of the contact [m]
+  collision::Pair pair;      ///< what met
   const btSoftBody* first;   ///< the body of the vertex, or of the first edge
   const btSoftBody* second;  ///< the body of the face, or of the second edge; may be the same
   /// Node numbers: vertexFace: of the vertex, then of the face; edgeEdge: of the two edges.
@@ -31,14 +31,16 @@ struct Passage {
   btVector3 points[4];  ///< where these nodes were at that time [m]
 };
 
+/// What an audit has counted.
 struct AuditTotals {
-  long long vertexFace = 0;
-  long long edgeEdge = 0;
+  long long vertexFace = 0;          ///< vertices that went through faces
+  long long edgeEdge = 0;            ///< edges that went through edges
   long long candidatePairs = 0;      ///< of which the swept boxes overlapped
   long long substeps = 0;            ///< looked at
   long long incompleteSubsteps = 0;  ///< of which some pairs were left out: see Parameters::mostPairsPerFace
   double seconds = 0;                ///< simulated time looked at [s]
 
+  /// Of both kinds.
   long long passages() const { return vertexFace + edgeEdge; }
   /// Passages per second of simulated time.
   double perSecond() const { return seconds > 0 ? static_cast<double>(passages()) / seconds : 0; }
@@ -58,6 +60,7 @@ struct AuditTotals {
 /// Two cloths that both have an audit: the pairs between them are counted by the one that was added first.
 class WETCLOTH_EXPORT CollisionAudit : public Effect {
  public:
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     bool self = true;    ///< pairs within this cloth
     bool others = true;  ///< pairs of this cloth and any other soft body of the world that has faces
@@ -80,6 +83,7 @@ class WETCLOTH_EXPORT CollisionAudit : public Effect {
   CollisionAudit(const CollisionAudit&) = delete;
   CollisionAudit& operator=(const CollisionAudit&) = delete;
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed. The substep that
   /// has begun is looked at by the new ones; another tier forgets which pairs are just meeting. Not from inside

@@ -48,8 +48,9 @@ class WETCLOTH_EXPORT ContactWetting : public Effect {
     double water = std::numeric_limits<double>::infinity();  ///< film on it [kg], [0, inf]
   };
 
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
-    std::vector<WetBody> wetBodies = {};
+    std::vector<WetBody> wetBodies = {};  ///< each body once
     /// Exchange water with other WetCloths that touch. Both bodies then need fCollision::VF_SS (position-based worlds)
     /// or VF_DD (deformable) in m_cfg.collisions, without which Bullet lists no such contacts.
     bool cloths = false;

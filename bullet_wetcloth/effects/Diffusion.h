@@ -33,6 +33,7 @@ WETCLOTH_EXPORT double diffusionPotential(double saturation, double exponent);
 /// full, for any step. Water takes the velocity of the node that it leaves.
 class WETCLOTH_EXPORT Diffusion : public Effect {
  public:
+  /// How a step is solved.
   enum class Method {
     /// Implicit, one sparse factorisation for many steps: a step is two triangular solves. Stable for any step.
     factored,
@@ -42,6 +43,7 @@ class WETCLOTH_EXPORT Diffusion : public Effect {
     explicitSubsteps
   };
 
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     double warpDiffusivity = 5e-6;  ///< D of a saturated cloth along the warp [m^2/s], > 0. The default is a guess
     double weftDiffusivity = 5e-6;  ///< and along the weft [m^2/s], > 0. The default is a guess
@@ -49,7 +51,7 @@ class WETCLOTH_EXPORT Diffusion : public Effect {
     /// Direction of the warp, of any length > 0, in the body's shape when the effect is added, or when the direction is
     /// changed; projected onto each triangle. Matters only when the two diffusivities differ.
     btVector3 warp = btVector3(1, 0, 0);
-    Method method = Method::factored;
+    Method method = Method::factored;  ///< how a step is solved
     double tolerance = 1e-8;  ///< of Method::conjugateGradients: residual over that of even water [-], in (0, 1)
   };
 
@@ -57,6 +59,7 @@ class WETCLOTH_EXPORT Diffusion : public Effect {
   explicit Diffusion(Parameters parameters);
   ~Diffusion() override;
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed. Other
   /// diffusivities or another warp take the time that adding the effect took.
@@ -70,12 +73,15 @@ class WETCLOTH_EXPORT Diffusion : public Effect {
   void apply(WetCloth& cloth, const Step& step) override;
   void transferState(StateArchive& archive) override;
 
-  /// For tests that count work: nodes visited, linear systems solved, matrices factored, explicit substeps and
-  /// iterations of conjugate gradients so far. A settled cloth adds none.
+  /// Nodes visited so far: for tests that count work, as are the next four. A settled cloth adds none.
   long long nodesVisited() const { return m_nodesVisited; }
+  /// Linear systems solved.
   long long solves() const;
+  /// Matrices factored.
   long long factorizations() const;
+  /// Explicit substeps.
   long long substeps() const { return m_substeps; }
+  /// Iterations of conjugate gradients.
   long long iterations() const;
 
  private:

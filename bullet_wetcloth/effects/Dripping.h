@@ -44,6 +44,7 @@ struct Drip {
 /// Without gravity nothing drips.
 class WETCLOTH_EXPORT Dripping : public Effect {
  public:
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     /// Saturation that a node keeps, [0, 1]. A guess: no measured value for hung cloth was found.
     double holdingSaturation = 0.6;
@@ -62,6 +63,7 @@ class WETCLOTH_EXPORT Dripping : public Effect {
   /// Throws std::invalid_argument naming the field and the value.
   explicit Dripping(Parameters parameters);
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed. Not from inside
   /// onDrip.

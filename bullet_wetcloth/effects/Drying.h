@@ -36,6 +36,7 @@ WETCLOTH_EXPORT double dryingTime(double from, double to, double critical, doubl
 /// in proportion to what is left. Does not know what is under water or indoors: that is for `exposure` to say.
 class WETCLOTH_EXPORT Drying : public Effect {
  public:
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     double temperature = 20;        ///< of the air and the cloth [degC], [0, 60]
     double relativeHumidity = 0.5;  ///< [0, 1]; 1: nothing dries
@@ -56,6 +57,7 @@ class WETCLOTH_EXPORT Drying : public Effect {
   /// Throws std::invalid_argument naming the field and the value.
   explicit Drying(Parameters parameters);
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, or when an exposure has not one value per node,
   /// and then nothing has changed.

@@ -19,15 +19,22 @@ inline namespace WETCLOTH_PRECISION {
 /// function of the node's position and unit normal.
 class WETCLOTH_EXPORT Exposure {
  public:
+  /// Of a node's position [m] and its normal, of length 1.
   using Function = std::function<double(const btVector3& position, const btVector3& normal)>;
 
+  /// A constant in [0, 1].
   Exposure(double everywhere) : m_value(everywhere) {}
+  /// One value in [0, 1] for each node.
   Exposure(std::vector<double> perNode) : m_value(std::move(perNode)) {}
+  /// A function, asked for each node in each step.
   Exposure(Function function) : m_value(std::move(function)) {}
+  /// The same of a lambda.
   template <class F, class = decltype(std::declval<F>()(btVector3(), btVector3()))>
   Exposure(F function) : m_value(Function(std::move(function))) {}
 
+  /// Whether it is a function.
   bool isFunction() const { return std::holds_alternative<Function>(m_value); }
+  /// Whether it is an array.
   bool isPerNode() const { return std::holds_alternative<std::vector<double>>(m_value); }
 
   /// A function's value is clamped to [0, 1], and NaN counts as 0. Nodes beyond the end of an array (made when the

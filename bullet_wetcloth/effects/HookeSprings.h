@@ -35,6 +35,7 @@ WETCLOTH_EXPORT btVector3 hookeForce(const btVector3& a, const btVector3& b, dou
 /// K follows LinkConstants::setStiffness(), which WetStiffness sets, in whatever order the two are added.
 class WETCLOTH_EXPORT HookeSprings : public Effect {
  public:
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     double stiffness = 1000;       ///< K of the links [N/m], (0, inf)
     double bendingStiffness = 10;  ///< K of links that are marked as bending (flexion springs) [N/m], [0, inf)
@@ -47,6 +48,7 @@ class WETCLOTH_EXPORT HookeSprings : public Effect {
   explicit HookeSprings(Parameters parameters);
   ~HookeSprings() override;
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, or when `perLink` has not one value per link,
   /// and then nothing has changed. Other stiffnesses make the next step factor the matrix anew.

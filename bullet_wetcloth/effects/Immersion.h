@@ -25,6 +25,7 @@ WETCLOTH_EXPORT double immersionShare(double depth, double dt, double timeConsta
 /// other change as SteadyState says.
 class WETCLOTH_EXPORT Immersion : public Effect {
  public:
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     /// The water; none: what the application has given to Bullet (btSoftBodyWorldInfo::water_normal, water_offset),
     /// as it is in each step. The water arrives with the surface's velocity; its density does not matter here.
@@ -34,6 +35,7 @@ class WETCLOTH_EXPORT Immersion : public Effect {
   /// Throws std::invalid_argument naming the field and the value.
   explicit Immersion(Parameters parameters);
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed. A surface of none
   /// is Bullet's own again, or no water.

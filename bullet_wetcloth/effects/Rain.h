@@ -16,6 +16,7 @@ inline namespace WETCLOTH_PRECISION {
 /// Idles while the flux is 0.
 class WETCLOTH_EXPORT Rain : public Effect {
  public:
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     btVector3 direction = btVector3(0, -1, 0);  ///< in which the drops fall, of any length > 0
     /// [kg/m^2/s] through a plane across the direction, >= 0. 1 mm/h is 1/3600 kg/m^2/s; the default is 10 mm/h, which
@@ -30,6 +31,7 @@ class WETCLOTH_EXPORT Rain : public Effect {
   /// Throws std::invalid_argument naming the field and the value.
   explicit Rain(Parameters parameters);
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed.
   void setParameters(Parameters parameters);

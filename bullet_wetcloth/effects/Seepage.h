@@ -33,6 +33,7 @@ WETCLOTH_EXPORT double seepageFlow(double conductance, double speed, double expo
 /// rounding.
 class WETCLOTH_EXPORT Seepage : public Effect {
  public:
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     /// v of saturated cloth hanging straight down under 9.81 m/s^2 [m/s], >= 0; it grows with gravity. The default is a
     /// guess.
@@ -44,6 +45,7 @@ class WETCLOTH_EXPORT Seepage : public Effect {
   explicit Seepage(Parameters parameters);
   ~Seepage() override;
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed.
   void setParameters(Parameters parameters);

@@ -39,10 +39,12 @@ class WETCLOTH_EXPORT Splash : public Effect {
     double halfAngle = 0.1;               ///< between its axis and its side [rad], (0, pi/2)
     double reach = 1;                     ///< how far the drops fly from the mouth [m], > 0
   };
+  /// Where the drops are.
   using Region = std::variant<Sphere, Cone>;
 
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
-    Region region = Sphere();
+    Region region = Sphere();  ///< where the drops are
     /// Of the drops [m/s], of any length > 0. In a cone its direction is the axis, its length each drop's speed.
     btVector3 velocity = btVector3(0, -5, 0);
     /// [kg/m^2/s] through an area across the stream, >= 0; in a cone that at its far end, `reach`.
@@ -52,6 +54,7 @@ class WETCLOTH_EXPORT Splash : public Effect {
   /// Throws std::invalid_argument naming the field and the value.
   explicit Splash(Parameters parameters);
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed.
   void setParameters(Parameters parameters);

@@ -27,6 +27,7 @@ WETCLOTH_EXPORT double swellingStrain(double saturation, double saturatedStrain)
 /// The shape that btSoftBody::setPose() remembered does not follow: a body with m_cfg.kMT > 0 is drawn back to it.
 class WETCLOTH_EXPORT Swelling : public Effect {
  public:
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     /// Relative change of length at saturation [-], (-0.5, 0.5); negative: shrinks. A yarn of ordinary twist gets 2 %
     /// shorter by the swelling of its cotton fibres (Collins 1939); a fabric that is wetted for the first time shrinks
@@ -37,6 +38,7 @@ class WETCLOTH_EXPORT Swelling : public Effect {
   /// Throws std::invalid_argument naming the field and the value.
   explicit Swelling(Parameters parameters);
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed.
   void setParameters(Parameters parameters);

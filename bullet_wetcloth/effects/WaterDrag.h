@@ -37,6 +37,7 @@ WETCLOTH_EXPORT double sinkingSpeed(double arealDensity, double fibreDensity, do
 /// is set (Bullet's default is 0) also feels Bullet's own aerodynamics.
 class WETCLOTH_EXPORT WaterDrag : public Effect {
  public:
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     /// None: the surface that the application has given to Bullet (btSoftBodyWorldInfo::water_normal and so on), as it
     /// is in each step.
@@ -51,6 +52,7 @@ class WETCLOTH_EXPORT WaterDrag : public Effect {
   /// Throws std::invalid_argument naming the field and the value.
   explicit WaterDrag(Parameters parameters);
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed. A surface of none
   /// is Bullet's own again, or no water.

@@ -21,6 +21,7 @@ struct WETCLOTH_EXPORT WaterSurface {
 
   /// How far a point is below the surface [m], negative above it. The normal must be of length 1.
   double depth(const btVector3& x) const { return -static_cast<double>(normal.dot(x)) - offset; }
+  /// Names its fields: see StateArchive.
   void transferState(StateArchive& archive);
 };
 

@@ -29,6 +29,7 @@ WETCLOTH_EXPORT btScalar slidingShare(btScalar friction, btScalar normal, const 
 /// and applies after its solve, where nobody can reach it.
 class WETCLOTH_EXPORT WetFriction : public Effect {
  public:
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     double wetFactor = 2.5;       ///< at peakSaturation [-], [0, inf)
     double peakSaturation = 0.5;  ///< (0, 1]
@@ -38,6 +39,7 @@ class WETCLOTH_EXPORT WetFriction : public Effect {
   /// Throws std::invalid_argument naming the field and the value.
   explicit WetFriction(Parameters parameters);
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed.
   void setParameters(Parameters parameters);

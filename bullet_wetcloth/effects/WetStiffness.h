@@ -46,6 +46,7 @@ WETCLOTH_EXPORT btVector3 dampingImpulse(const btVector3& ab, const btVector3& v
 /// Damping acts in every world, HookeSprings or not.
 class WETCLOTH_EXPORT WetStiffness : public Effect {
  public:
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     double wetStretch = 0.8;  ///< factor on the stiffness of structural links at saturation, [0.001, 1000]; a guess
     double wetBending = 0.5;  ///< factor on that of links marked as bending at saturation, [0.001, 1000]; a guess
@@ -56,6 +57,7 @@ class WETCLOTH_EXPORT WetStiffness : public Effect {
   /// Throws std::invalid_argument naming the field and the value.
   explicit WetStiffness(Parameters parameters);
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, or attach() of a factor that is not 1, and then
   /// nothing has changed. Links whose factors become 1 have the constants again that Bullet would compute.

@@ -37,20 +37,23 @@ WETCLOTH_EXPORT btVector3 linearWindForce(const btVector3& a, const btVector3& b
 /// (Bullet's default) to feel only this.
 class WETCLOTH_EXPORT Wind : public Effect {
  public:
+  /// The force on a triangle.
   enum class Law {
     quadratic,  ///< 1/2 rho C_d A |u_n| u_n, a third to each corner
     linear,     ///< linearDrag A u_n, a third to each corner
     paper       ///< Fig. 6: n_hat (n_hat . wind) x paperForce, the whole force to each corner
   };
+  /// How the force becomes a velocity.
   enum class Integration {
     semiImplicit,  ///< stable at any speed and step: the air never pushes a node past its own velocity
     explicitEuler  ///< for the comparison; overshoots on light nodes. Law::paper is always explicit
   };
 
+  /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     /// Velocity of the air [m/s]: a constant, or a function of position and time.
     WindField velocity = {};
-    Law law = Law::quadratic;
+    Law law = Law::quadratic;      ///< the force on a triangle
     double airDensity = 1.225;     ///< rho [kg/m^3], >= 0; dry air at 15 C and sea level
     double dragCoefficient = 1.2;  ///< C_d of a flat plate across the stream [-], >= 0
     double skinFriction = 0;       ///< C_f along the surface [-], >= 0
@@ -58,12 +61,13 @@ class WETCLOTH_EXPORT Wind : public Effect {
     /// Newtons per unit of the paper's wind vector, >= 0. The paper counts mass in grams, so its unit of force is
     /// 1 g m/s^2.
     double paperForce = 1e-3;
-    Integration integration = Integration::semiImplicit;
+    Integration integration = Integration::semiImplicit;  ///< how it becomes a velocity
   };
 
   /// Throws std::invalid_argument naming the field and the value.
   explicit Wind(Parameters parameters);
 
+  /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, and then nothing has changed.
   void setParameters(Parameters parameters);

@@ -14,15 +14,22 @@ inline namespace WETCLOTH_PRECISION {
 /// Velocity of the air [m/s]: the same everywhere, or a function of position [m] and time [s].
 class WETCLOTH_EXPORT WindField {
  public:
+  /// Of a position [m] and the simulated time [s].
   using Function = std::function<btVector3(const btVector3& position, double time)>;
 
+  /// Air at rest.
   WindField() = default;
+  /// The same velocity everywhere [m/s], finite.
   WindField(const btVector3& everywhere) : m_constant(everywhere) {}
+  /// A function, asked in each step at each triangle.
   WindField(Function function) : m_function(std::move(function)) {}
+  /// The same of a lambda.
   template <class F, class = decltype(std::declval<F>()(btVector3(), double()))>
   WindField(F function) : m_function(std::move(function)) {}
 
+  /// Whether it is a function.
   bool isFunction() const { return static_cast<bool>(m_function); }
+  /// The velocity of one that is no function [m/s].
   const btVector3& constant() const { return m_constant; }
 
   /// A function's value that is not finite counts as no wind.

@@ -19,8 +19,11 @@ inline namespace WETCLOTH_PRECISION {
 /// Node (i, j), 0 <= i < columns, 0 <= j < rows, has index j * columns + i and lies at
 /// origin + edgeU i / (columns - 1) + edgeV j / (rows - 1).
 struct WETCLOTH_EXPORT ClothPatch {
-  enum class Edge { left, right, bottom, top };  ///< i = 0, i = columns - 1, j = 0, j = rows - 1
+  /// Where nodes can be pinned: i = 0, i = columns - 1, j = 0, j = rows - 1.
+  enum class Edge { left, right, bottom, top };
+  /// Where two edges meet.
   enum class Corner { bottomLeft, bottomRight, topLeft, topRight };
+  /// To the next node along an edge; across a square; to the next but one along an edge.
   enum class Spring { mechanical, shear, flexion };
 
   int columns = 32;                       ///< >= 2
@@ -32,14 +35,16 @@ struct WETCLOTH_EXPORT ClothPatch {
 
   /// Bullet's position-based link stiffness (btSoftBody::Material::m_kLST) by kind, (0, 1].
   double mechanicalStiffness = 1;
-  double shearStiffness = 1;
-  double flexionStiffness = 1;
+  double shearStiffness = 1;    ///< (0, 1]
+  double flexionStiffness = 1;  ///< (0, 1]
 
-  std::vector<Corner> pinnedCorners = {};
-  std::vector<Edge> pinnedEdges = {};
-  std::vector<int> pinnedNodes = {};  ///< indices in [0, columns * rows)
+  std::vector<Corner> pinnedCorners = {};  ///< a node each
+  std::vector<Edge> pinnedEdges = {};      ///< all their nodes
+  std::vector<int> pinnedNodes = {};       ///< indices in [0, columns * rows)
 
+  /// Columns times rows.
   int nodeCount() const { return columns * rows; }
+  /// Index of the node in column i, [0, columns), and row j, [0, rows).
   int node(int i, int j) const { return j * columns + i; }
   /// Number of springs of a kind.
   long long springCount(Spring kind) const;

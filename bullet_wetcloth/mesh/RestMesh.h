@@ -22,28 +22,34 @@ class WETCLOTH_EXPORT RestMesh {
  public:
   /// An edge of triangles, once; a < b.
   struct Edge {
-    int a;
-    int b;
+    int a;          ///< lower node number
+    int b;          ///< higher node number
     double length;  ///< at rest [m]
   };
+  /// A face of the body.
   struct Triangle {
-    std::array<int, 3> nodes;
+    std::array<int, 3> nodes;  ///< as in the body's face
     std::array<int, 3> edges;  ///< edges[k] is opposite nodes[k]; numbers in edges(), -1 from a node to itself
     double area;               ///< at rest [m^2]; 0 when the lengths make no triangle
   };
   /// A range of node numbers.
   struct Neighbours {
-    const int* first;
-    const int* last;
+    const int* first;  ///< the first
+    const int* last;   ///< past the last
+    /// For range-for.
     const int* begin() const { return first; }
+    /// For range-for.
     const int* end() const { return last; }
   };
 
   /// O(faces log faces).
   explicit RestMesh(const btSoftBody& body);
 
+  /// Nodes of the body.
   std::size_t nodeCount() const { return m_nodeAreas.size(); }
+  /// Sorted by their nodes.
   const std::vector<Edge>& edges() const { return m_edges; }
+  /// In the order of btSoftBody::m_faces.
   const std::vector<Triangle>& triangles() const { return m_triangles; }
   /// A third of the node's triangles [m^2]; 0 for a node of no triangle.
   const std::vector<double>& nodeAreas() const { return m_nodeAreas; }

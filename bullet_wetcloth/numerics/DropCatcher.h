@@ -29,14 +29,17 @@ WETCLOTH_EXPORT double caughtFlux(const btVector3& a, const btVector3& b, const 
 /// gives the node its momentum, too, and runs off.
 class WETCLOTH_EXPORT DropCatcher {
  public:
+  /// Its three nodes.
   using Triangle = std::array<int, 3>;
 
   /// Throws std::invalid_argument that names the effect when the body has no faces.
   void attach(const char* effect, const btSoftBody& body);
 
+  /// The body's faces, as attached.
   const std::vector<Triangle>& triangles() const { return m_triangles; }
   /// Where the nodes were at the last begin() [m].
   const std::vector<btVector3>& positions() const { return m_positions; }
+  /// Of a triangle, at the last begin() [m].
   btVector3 centroid(std::size_t triangle) const;
 
   /// Begins a step: nothing is caught yet, and the nodes are where the body has them now.
@@ -53,6 +56,7 @@ class WETCLOTH_EXPORT DropCatcher {
   /// Water that struck the cloth in the last step [kg].
   double caught() const { return m_caught; }
 
+  /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
 
  private:

@@ -21,6 +21,7 @@ class Water;
 /// passed in which no water moved they are exact. So they depend on the water alone, not on how it came there.
 class WETCLOTH_EXPORT LinkSaturation {
  public:
+  /// How far a value may lag behind while water moves [-].
   static constexpr double kStep = 1e-3;
 
   /// Takes over the body's links, and the water as it is. O(links).
@@ -29,9 +30,12 @@ class WETCLOTH_EXPORT LinkSaturation {
   /// Whether a value changed. Visits no link while none does, and no node while no water moves.
   bool update(const Water& water);
 
+  /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
 
+  /// Number of links.
   std::size_t size() const { return m_links.size(); }
+  /// Of a link, in [0, 1].
   double operator[](std::size_t link) const {
     return (m_saturation[m_links[link].a] + m_saturation[m_links[link].b]) / 2;
   }

@@ -19,7 +19,9 @@ class WETCLOTH_EXPORT NodeUptake {
  public:
   /// Nothing carried, for this many nodes.
   void reset(std::size_t nodes) { m_carry.reset(nodes); }
+  /// Number of nodes.
   std::size_t size() const { return m_carry.size(); }
+  /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive) { m_carry.transferState(archive); }
 
   /// Water that the node can still take [kg]; not positive when it is full.

@@ -23,6 +23,7 @@ class WETCLOTH_EXPORT NothingLeft {
     m_revision = water.revision();
   }
 
+  /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive) { archive.value(m_revision, m_isTrue); }
 
  private:

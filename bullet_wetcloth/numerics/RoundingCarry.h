@@ -16,6 +16,7 @@ class WETCLOTH_EXPORT RoundingCarry {
  public:
   /// Nothing carried, for this many nodes. Allocates.
   void reset(std::size_t nodes) { m_carry.assign(nodes, 0); }
+  /// Number of nodes.
   std::size_t size() const { return m_carry.size(); }
 
   /// What is still due at the node [kg].
@@ -34,6 +35,7 @@ class WETCLOTH_EXPORT RoundingCarry {
   /// The node is where it was to come to, and nothing is due.
   void settle(std::size_t node) { m_carry[node] = 0; }
 
+  /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive) { archive.array(m_carry); }
 
  private:

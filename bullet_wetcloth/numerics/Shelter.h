@@ -20,8 +20,10 @@ inline namespace WETCLOTH_PRECISION {
 /// it covers: O(triangles) for a mesh of even triangles in a few layers. Memory is taken by resize() only.
 class WETCLOTH_EXPORT Shelter {
  public:
+  /// Its three nodes.
   using Triangle = std::array<int, 3>;
 
+  /// Takes the memory for so many.
   void resize(std::size_t nodes, std::size_t triangles);
 
   /// Looks at the triangles anew. As many nodes and triangles as resize() was told.
@@ -29,6 +31,7 @@ class WETCLOTH_EXPORT Shelter {
   void update(const std::vector<btVector3>& positions, const std::vector<Triangle>& triangles,
               const btVector3& direction);
 
+  /// Whether another triangle covers this one's centroid, by the last update().
   bool isSheltered(std::size_t triangle) const { return m_isSheltered[triangle] != 0; }
 
  private:

@@ -23,7 +23,9 @@ class Water;
 /// the cloth's shape or gravity has changed, if it depends on them; and after restart().
 class WETCLOTH_EXPORT SteadyState {
  public:
+  /// What the effect's work depends on.
   enum class DependsOn { water, waterAndShape };
+  /// Not reached at first.
   explicit SteadyState(DependsOn inputs = DependsOn::water) : m_inputs(inputs) {}
 
   /// A parameter or the body changed.
@@ -36,6 +38,7 @@ class WETCLOTH_EXPORT SteadyState {
   /// restart().
   void note(const btSoftBody& body, const Water& water, const btVector3& gravity, double dt, double moved);
 
+  /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
 
  private:

@@ -13,6 +13,7 @@ struct WetnessCurve {
   double flooded = 1;         ///< at saturation 1 and above; unused when peakSaturation is 1
   double peakSaturation = 1;  ///< (0, 1]
 
+  /// The value at a saturation; outside [0, 1] as at its ends.
   double at(double saturation) const {
     if (!(saturation > 0)) return dry;
     if (saturation <= peakSaturation) return dry + (peak - dry) * (saturation / peakSaturation);

@@ -8,9 +8,9 @@ inline namespace WETCLOTH_PRECISION {
 
 /// Linear RGB, each in [0, 1].
 struct Colour {
-  double r = 0;
-  double g = 0;
-  double b = 0;
+  double r = 0;  ///< red
+  double g = 0;  ///< green
+  double b = 0;  ///< blue
 };
 
 /// Albedo of a saturated surface whose dry albedo is given (Lekner & Dorf 1988, "Why some things are darker when

@@ -12,7 +12,7 @@ inline namespace WETCLOTH_PRECISION {
 namespace {
 
 // A stream may hold anything: what an error shows of it stays one line of letters.
-std::string quoted(const std::string& text) {
+std::string inQuotes(const std::string& text) {
   constexpr std::size_t kLongest = 80;
   std::string shown = text.substr(0, kLongest);
   for (char& letter : shown) {
@@ -76,7 +76,7 @@ void StateArchive::expect(const std::string& live, const std::string& what) {
   if (isSaving()) found = live;
   bytes(found.data(), found.size(), Target::scratch);
   if (isChecking() && found != live)
-    fail(what + " is " + quoted(live) + " here and " + quoted(found) + " in the saved state");
+    fail(what + " is " + inQuotes(live) + " here and " + inQuotes(found) + " in the saved state");
 }
 
 void StateArchive::object(const btCollisionObject*& object) {

@@ -39,7 +39,9 @@ class WETCLOTH_EXPORT StateArchive {
   /// Checks a state, and after rewind() restores it.
   StateArchive(const btCollisionWorld& world, std::vector<unsigned char> bytes);
 
+  /// What is handed in is written to the state.
   bool isSaving() const { return m_mode == Mode::save; }
+  /// What is handed in is compared with the state, and not changed.
   bool isChecking() const { return m_mode == Mode::check; }
   /// What was handed in so far has its saved values: what was derived from them can be rebuilt.
   bool isRestoring() const { return m_mode == Mode::restore; }
@@ -50,13 +52,18 @@ class WETCLOTH_EXPORT StateArchive {
     static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>, "name the parts of a structure one by one");
     bytes(&value, sizeof value);
   }
+  /// A truth value.
   void value(bool& value);
+  /// A vector, all four numbers of it.
   void value(btVector3& value) { bytes(&value, sizeof value); }
+  /// A matrix.
   void value(btMatrix3x3& value) { bytes(&value, sizeof value); }
+  /// A transform.
   void value(btTransform& value) {
     this->value(value.getBasis());
     this->value(value.getOrigin());
   }
+  /// Several, one after the other.
   template <class T, class... More>
   void value(T& first, More&... more) {
     value(first);
@@ -86,6 +93,7 @@ class WETCLOTH_EXPORT StateArchive {
   void growingArray(std::vector<T>& values) {
     growing(values, [this](T& element) { value(element); });
   }
+  /// The same for elements of a structure: transfer(T&) names the parts of each.
   template <class Array, class Transfer>
   void growing(Array& values, const Transfer& transfer) {
     growing(values, transfer, [](const auto&) { return true; });
@@ -108,6 +116,7 @@ class WETCLOTH_EXPORT StateArchive {
       if (isRestoring() || isWorthIt(values[i])) transfer(values[i]);
     }
   }
+  /// What may be there or not; transfer(T&) names its parts.
   template <class T, class Transfer>
   void optional(std::optional<T>& value, const Transfer& transfer) {
     bool isThere = value.has_value();
@@ -139,10 +148,12 @@ class WETCLOTH_EXPORT StateArchive {
       fail(what + " is " + std::to_string(saved) + " here and " + std::to_string(found) + " in the saved state");
     }
   }
+  /// A text that must be the same here: throws StateError that names it and both.
   void expect(const std::string& live, const std::string& what);
 
   /// An object of the world, or null. One that is not in the world (any more) is saved as null.
   void object(const btCollisionObject*& object);
+  /// The same for a pointer to what may change.
   void object(btCollisionObject*& object) {
     const btCollisionObject* found = object;
     this->object(found);
@@ -160,6 +171,7 @@ class WETCLOTH_EXPORT StateArchive {
   /// Throws StateError with this message and the place in the stream.
   [[noreturn]] void fail(const std::string& message) const;
 
+  /// The whole state, once it is saved.
   const std::vector<unsigned char>& bytes() const { return m_bytes; }
   /// From checking to restoring. Throws StateError when the check has left something over.
   void rewind();

@@ -12,10 +12,12 @@ inline namespace WETCLOTH_PRECISION {
 /// FNV-1a, 64 bits (Fowler, Noll & Vo 1991): a single changed byte always changes it, since each round is a bijection.
 class StateHash {
  public:
+  /// These bytes more.
   void add(const void* bytes, std::size_t count) {
     const auto* byte = static_cast<const unsigned char*>(bytes);
     for (std::size_t i = 0; i < count; ++i) m_value = (m_value ^ byte[i]) * 0x100000001b3u;
   }
+  /// The hash of all bytes so far.
   std::uint64_t value() const { return m_value; }
 
  private:

@@ -18,6 +18,7 @@ class StateArchive;
 /// The stiffness is that of the link's material times a factor of the link's own, 1 at first.
 class WETCLOTH_EXPORT LinkConstants {
  public:
+  /// For the links of this body, which must outlive it.
   explicit LinkConstants(btSoftBody& body) : m_body(body) {}
 
   /// Writes the constants of all links, with the masses that the nodes have now.
@@ -31,12 +32,14 @@ class WETCLOTH_EXPORT LinkConstants {
   ///
   /// In a position-based world a factor above 1 raises a stiffness to 1 at most: from 2 on the links would explode.
   void setStiffness(const std::vector<btScalar>& factors);
+  /// As last set.
   const std::vector<btScalar>& stiffness() const { return m_stiffness; }
   /// Grows with every setStiffness().
   unsigned long long stiffnessRevision() const { return m_stiffnessRevision; }
   /// Whether setStiffness() waits for a refresh().
   bool areStale() const { return m_areStale; }
 
+  /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
 
   /// How often all were written: for tests that count work.

@@ -21,6 +21,7 @@ class StateArchive;
 /// weights, the deformable world's anchors and mass preconditioner. The links' constants are LinkConstants' to write.
 class WETCLOTH_EXPORT NodeMasses {
  public:
+  /// For the nodes of this body, which must outlive it; `deformable` in that world of Bullet.
   NodeMasses(btSoftBody& body, bool deformable) : m_body(body), m_deformable(deformable) {}
 
   /// Takes over the body's present masses as known.
@@ -39,6 +40,7 @@ class WETCLOTH_EXPORT NodeMasses {
   /// As last written or remembered, one per node [1/kg].
   const std::vector<btScalar>& inverseMasses() const { return m_inverseMass; }
 
+  /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
 
   /// How often masses were written: for tests that count work.

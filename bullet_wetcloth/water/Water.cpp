@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/water/Water.h"
 
+#include "bullet_wetcloth/IeeeArithmetic.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>

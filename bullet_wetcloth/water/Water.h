@@ -29,13 +29,16 @@ struct Ledger {
 /// A sum whose rounding error does not grow with the number of terms (Neumaier 1974).
 class WETCLOTH_EXPORT CompensatedSum {
  public:
+  /// One term more.
   void add(double term) {
     const double sum = m_sum + term;
     const bool sumIsLarger = (m_sum < 0 ? -m_sum : m_sum) >= (term < 0 ? -term : term);
     m_compensation += sumIsLarger ? (m_sum - sum) + term : (term - sum) + m_sum;
     m_sum = sum;
   }
+  /// The sum so far.
   double value() const { return m_sum + m_compensation; }
+  /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
 
  private:
@@ -68,17 +71,23 @@ class WETCLOTH_EXPORT Water {
     double shifted = 0;
   };
 
+  /// Number of nodes.
   std::size_t size() const { return m_held.size(); }
 
+  /// Water in the node now [kg].
   double held(std::size_t node) const { return m_held[node]; }
+  /// Without water [kg].
   double dryMass(std::size_t node) const { return m_dryMass[node]; }
   /// What the node holds when saturated.
   double capacity(std::size_t node) const { return m_capacityRatio * m_dryMass[node]; }
   /// held / capacity: 0 dry, 1 saturated, more when a source has overfilled the node.
   double saturation(std::size_t node) const { return m_held[node] / capacity(node); }
+  /// Dry mass and water [kg].
   double totalMass(std::size_t node) const { return m_dryMass[node] + m_held[node]; }
+  /// Water held at saturation per dry mass [kg/kg].
   double capacityRatio() const { return m_capacityRatio; }
 
+  /// Where all water came from and went to.
   Ledger ledger() const;
 
   /// Grows with every change of the water or of a capacity, by an effect or by hand. An effect that found nothing to do
@@ -131,12 +140,15 @@ class WETCLOTH_EXPORT Water {
 
   // --- for the commit ---------------------------------------------------------------------------------------
 
+  /// Whether water came, left or moved since the last commit.
   bool movedSinceCommit() const { return m_movedSinceCommit; }
   /// Whether water left a node, or moved between nodes, since the last commit.
   bool leftSinceCommit() const { return m_leftSinceCommit; }
+  /// What came to a node since the last commit.
   const Arrival& arrival(std::size_t node) const { return m_arrivals[node]; }
   /// Says that the momentum of what arrived is in the node's velocity now: from then on it is water like all other.
   void joinArrival(std::size_t node);
+  /// The commit is done: nothing has come since.
   void clearArrivals();
 
   // --- for WetCloth -----------------------------------------------------------------------------------------
@@ -154,6 +166,7 @@ class WETCLOTH_EXPORT Water {
   /// The body's nodes changed: new dry masses and new water [kg] of each, whose sum must be what is held now, to
   /// rounding.
   void replaceNodes(std::vector<double> dryMass, std::vector<double> held);
+  /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/accuracy/ConvergenceOrder.h"
-#include "command/accuracy/SwingingCloth.h"
 #include "command/accuracy/Studies.h"
+#include "command/accuracy/SwingingCloth.h"
 
 #include <cmath>
 #include <string>

@@ -6,13 +6,13 @@
 #include "command/cli/TextFile.h"
 
 #include <algorithm>
-#include <charconv>
+#include <cerrno>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 
 namespace command {
 namespace {
@@ -87,11 +87,14 @@ class Lines {
 };
 
 double numberIn(const Lines& lines, std::size_t column, std::string_view field) {
-  double number = 0;
-  const char* const end = field.data() + field.size();
-  const auto [stopped, error] = std::from_chars(field.data(), end, number);
-  if (error == std::errc::invalid_argument || stopped != end) lines.reject(column, field, "must be a number");
-  if (error != std::errc()) lines.reject(column, field, "must be in the range of a double");
+  // Some standard libraries have no std::from_chars for floating point. This stops where a field ends: at a comma, the
+  // end of a line or of the text.
+  char* stopped = nullptr;
+  errno = 0;
+  const double number = std::strtod(field.data(), &stopped);
+  const bool isPlain = !field.empty() && field.find_first_of(" \t\v\f\r\nxX") == std::string_view::npos;
+  if (!isPlain || stopped != field.data() + field.size()) lines.reject(column, field, "must be a number");
+  if (errno == ERANGE && std::isinf(number)) lines.reject(column, field, "must be in the range of a double");
   if (!std::isfinite(number)) lines.reject(column, field, "must be finite");
   return number;
 }

@@ -44,7 +44,7 @@ std::vector<Rgb> coloursOf(const ClothShape& shape, const ClothState& state) {
   return colours;
 }
 
-std::vector<Vector3> extentOf(const std::vector<Vector3>& points) {
+std::vector<Vector3> boxOf(const std::vector<Vector3>& points) {
   Bounds bounds;
   for (const Vector3& point : points) bounds.add(point);
   return {bounds.low, bounds.high};
@@ -125,7 +125,7 @@ class UsdWriter {
   void cloth(std::size_t index, const std::string& name) {
     const ClothShape& shape = m_sequence.cloths[index];
     beginMesh(name, shape.triangles, true);
-    sampled("float3[] extent", index, [](const ClothState& state) { return extentOf(state.positions); });
+    sampled("float3[] extent", index, [](const ClothState& state) { return boxOf(state.positions); });
     sampled("point3f[] points", index, [](const ClothState& state) { return state.positions; });
     sampledByVertex("normal3f[] normals", index,
                     [&](const ClothState& state) { return vertexNormals(state.positions, shape.triangles); });
@@ -138,7 +138,7 @@ class UsdWriter {
 
   void stands(const StandingMesh& mesh, const std::string& name) {
     beginMesh(name, mesh.triangles, false);
-    fixed("float3[] extent", extentOf(mesh.vertices));
+    fixed("float3[] extent", boxOf(mesh.vertices));
     fixed("point3f[] points", mesh.vertices);
     fixed("normal3f[] normals", mesh.normals, perVertex);
     fixed("color3f[] primvars:displayColor", std::vector<Rgb>{mesh.colour},

@@ -28,11 +28,11 @@ RenderResult drawFilm(const RenderJob&) { refuse(); }
 #include "command/cli/Progress.h"
 
 #include "command/pictures/FilmFile.h"
-#include "command/pictures/gl/OffscreenContext.h"
 #include "command/pictures/PngFile.h"
-#include "command/pictures/gl/Renderer.h"
 #include "command/pictures/Strip.h"
 #include "command/pictures/View.h"
+#include "command/pictures/gl/OffscreenContext.h"
+#include "command/pictures/gl/Renderer.h"
 
 #include <algorithm>
 #include <chrono>

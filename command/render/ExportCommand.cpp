@@ -91,7 +91,8 @@ nlohmann::ordered_json filesIn(const fs::path& out) {
   return list;
 }
 
-nlohmann::ordered_json jsonOf(const Scene& scene, const ExportOptions& options, const pictures::FrameSequence& sequence) {
+nlohmann::ordered_json jsonOf(const Scene& scene, const ExportOptions& options,
+                              const pictures::FrameSequence& sequence) {
   nlohmann::ordered_json json;
   json["scene"] = scene.name;
   json["precision"] = nameOf(ownPrecision);

@@ -8,8 +8,8 @@
 #include "command/cli/StagedOutput.h"
 #include "command/render/DrawnPictures.h"
 #include "command/render/PictureSize.h"
-#include "command/render/SampleRun.h"
 #include "command/render/RenderJob.h"
+#include "command/render/SampleRun.h"
 #include "command/scene/DryScene.h"
 #include "command/scene/SceneOptions.h"
 

@@ -17,7 +17,7 @@ namespace command {
 /// RunError when the run becomes non-finite.
 /// @param times  of the frames [s], ascending, from 0 to the scene's duration
 pictures::FrameSequence sampleRun(const Scene& scene, const std::vector<double>& times,
-                              SceneWorld::Kind kind = SceneWorld::Kind::wet);
+                                  SceneWorld::Kind kind = SceneWorld::Kind::wet);
 
 /// Frames that are 1 / framesPerSecond apart, the first at the start.
 /// @param framesPerSecond  of simulated time, > 0

@@ -9,9 +9,7 @@ namespace {
 
 constexpr double longestFall = 3;  // [s], 44 m: nothing that a picture shows is so far down
 
-double radiusOf(double mass, double density) {
-  return std::cbrt(3 * mass / (4 * 3.14159265358979 * density));
-}
+double radiusOf(double mass, double density) { return std::cbrt(3 * mass / (4 * 3.14159265358979 * density)); }
 
 }  // namespace
 

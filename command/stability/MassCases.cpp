@@ -238,7 +238,7 @@ HardCase momentum() {
       const double saturation = 1 - std::exp(-scene.time() / fabric.timeConstant);
       naive::writeMassesWithoutMomentum(body, *dry, 1 + saturation * fabric.capacity);
     };
-    script.observe = [&body, mass, velocity](CaseMeter& meter) {
+    script.observe = [&body, mass](CaseMeter& meter) {
       double energy = 0;
       double sum[3] = {0, 0, 0};
       for (int i = 0; i < body.m_nodes.size(); ++i) {

@@ -69,8 +69,8 @@ HardCase varyingSteps() {
 
 HardCase pauses() {
   return onTheLine("pauses", "steps of no length in between, in which nothing may move",
-                   [](CaseScene& scene, WashingLine& line, Script& script) {
-                     script.advance = [&scene, body = &line.body] {
+                   [](CaseScene& scene, WashingLine&, Script& script) {
+                     script.advance = [&scene] {
                        for (int pause = scene.steps() % 3; pause > 0; --pause) scene.bullet().stepSimulation(0, 0);
                        scene.substep();
                      };

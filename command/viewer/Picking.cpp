@@ -35,27 +35,27 @@ std::optional<btScalar> meet(const Ray& ray, const Corners& corners) {
 }
 
 btScalar distanceToScenery(const Ray& ray, const pictures::Scenery& scenery) {
-  btScalar nearest = BT_LARGE_FLOAT;
+  btScalar least = BT_LARGE_FLOAT;
   for (const pictures::Ground& ground : scenery.grounds) {
     const btVector3 normal = bulletVector(ground.normal);
     const btScalar distance = (btScalar(ground.offset) - normal.dot(ray.origin)) / normal.dot(ray.direction);
-    if (distance > 0 && distance < nearest) nearest = distance;
+    if (distance > 0 && distance < least) least = distance;
   }
   for (const pictures::Solid& solid : scenery.solids) {
     for (const pictures::Triangle& triangle : solid.triangles) {
       const auto distance = meet(ray, cornersOf(solid.vertices, triangle));
-      if (distance && *distance < nearest) nearest = *distance;
+      if (distance && *distance < least) least = *distance;
     }
   }
-  return nearest;
+  return least;
 }
 
 int nearestCorner(const btVector3& point, const Corners& corners, const pictures::Triangle& triangle) {
-  std::size_t nearest = 0;
+  std::size_t chosen = 0;
   for (std::size_t k = 1; k < 3; ++k) {
-    if ((corners[k] - point).length2() < (corners[nearest] - point).length2()) nearest = k;
+    if ((corners[k] - point).length2() < (corners[chosen] - point).length2()) chosen = k;
   }
-  return triangle[nearest];
+  return triangle[chosen];
 }
 
 }  // namespace

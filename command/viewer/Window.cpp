@@ -26,17 +26,6 @@ namespace {
                           "; `wetcloth render` needs no display");
 }
 
-/// GLFW itself, from the first use of it to the last.
-class Library {
- public:
-  Library() {
-    if (glfwInit() == GLFW_FALSE) failToOpen();
-  }
-  ~Library() { glfwTerminate(); }
-  Library(const Library&) = delete;
-  Library& operator=(const Library&) = delete;
-};
-
 /// "" for a key without a name.
 std::string nameOf(int key, int scancode) {
   if (key == GLFW_KEY_ESCAPE) return "escape";
@@ -79,6 +68,17 @@ void style(float scale) {
 
 class Window::Parts {
  public:
+  /// GLFW itself, from the first use of it to the last.
+  class Library {
+   public:
+    Library() {
+      if (glfwInit() == GLFW_FALSE) failToOpen();
+    }
+    ~Library() { glfwTerminate(); }
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+  };
+
   Parts(const std::string& title, int width, int height) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);

@@ -24,7 +24,7 @@ float sideOf(const ClothShape& shape) {
 ClothOnRods::ClothOnRods(const ClothShape& shape) : m_shape(shape), m_mesh(shape), m_side(sideOf(shape)) {}
 
 void ClothOnRods::update(const ClothState& state, const ColourScale& scale, const std::vector<Ground>& grounds,
-                          float leastRadius) {
+                         float leastRadius) {
   m_mesh.update(state, scale.placesOf(state));
   if (m_findRods == nullptr) m_findRods = std::make_unique<Rods>(m_shape, state);
   m_bars.clear();

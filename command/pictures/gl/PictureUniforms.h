@@ -3,8 +3,8 @@
 
 #include "command/pictures/gl/Extent.h"
 
-#include "command/pictures/Matrix4.h"
 #include "command/pictures/FrameSequence.h"
+#include "command/pictures/Matrix4.h"
 #include "command/pictures/View.h"
 
 #include <array>

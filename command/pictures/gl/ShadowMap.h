@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "command/pictures/Matrix4.h"
 #include "command/pictures/FrameSequence.h"
+#include "command/pictures/Matrix4.h"
 
 #include <epoxy/gl.h>
 

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Zlib
+#include "bullet_wetcloth/Require.h"
+
+#include "bullet_wetcloth/IeeeArithmetic.h"
+
+#include <cmath>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+void requirePositive(const std::string& field, double value) {
+  if (!(std::isfinite(value) && value > 0)) rejectValue(field, value, "finite and > 0");
+}
+
+void requireNotNegative(const std::string& field, double value) {
+  if (!(std::isfinite(value) && value >= 0)) rejectValue(field, value, "finite and >= 0");
+}
+
+void requireFraction(const std::string& field, double value) {
+  if (!(value >= 0 && value <= 1)) rejectValue(field, value, "in [0, 1]");
+}
+
+void requireFinite(const std::string& field, double value) {
+  if (!std::isfinite(value)) rejectValue(field, value, "finite");
+}
+
+void requireFinite(const std::string& field, const btVector3& value) {
+  static const char* const axes[] = {".x", ".y", ".z"};
+  for (int axis = 0; axis < 3; ++axis) requireFinite(field + axes[axis], static_cast<double>(value[axis]));
+}
+
+bool isFinite(const btVector3& v) { return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z()); }
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
