@@ -28,6 +28,8 @@
 #include "bullet_wetcloth/effects/WetStiffness.h"
 #include "bullet_wetcloth/effects/Wind.h"
 #include "bullet_wetcloth/mesh/ClothPatch.h"
+#include "bullet_wetcloth/mesh/FaceTree.h"
+#include "bullet_wetcloth/mesh/MeshCheck.h"
 #include "bullet_wetcloth/shading/Colour.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 #include "bullet_wetcloth/state/StateError.h"
