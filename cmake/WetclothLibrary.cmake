@@ -1,4 +1,8 @@
 # SPDX-License-Identifier: Zlib
+# WETCLOTH_LIBRARY_OPTIONS: for the libraries alone. The tests are mostly in them, and so are worth optimizing there and not
+# in all that is compiled once and run once.
+set(WETCLOTH_LIBRARY_OPTIONS "" CACHE STRING "Compiler options for the libraries alone")
+
 # wetcloth_add_library(<target> EXPORT_NAME <name> EXPORTS <macro> <source>...)
 #
 # A library that is installed: static or shared, as BUILD_SHARED_LIBS says. Static ones fit into plugins, too. A shared
@@ -9,6 +13,7 @@ function(wetcloth_add_library target)
   add_library(bullet_wetcloth::${arg_EXPORT_NAME} ALIAS ${target})
   wetcloth_compile_options(${target})
   wetcloth_compile_together(${target})
+  target_compile_options(${target} PRIVATE ${WETCLOTH_LIBRARY_OPTIONS})
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   # Its include directories, not the target: a static library would pass a linked target on, and users of an
