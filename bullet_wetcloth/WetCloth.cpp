@@ -35,7 +35,7 @@ void WetCloth::log(const std::string& message) const { m_world.log(message); }
 
 Effect& WetCloth::add(std::unique_ptr<Effect> effect, const void* type) {
   if (!effect) reject("effect", "must not be null");
-  if (m_watch.hasChanged()) adaptToBody();
+  followBody();
   Effect& added = m_effects.add(std::move(effect), type);
   if (added.stage() == Stage::contact) m_world.shareTick();
   return added;
@@ -59,8 +59,11 @@ void WetCloth::observe(const Step& step) {
 }
 
 void WetCloth::step(const Step& step) {
-  if ((m_effects.empty() && !m_water.movedSinceCommit()) || !(step.dt > 0)) return;
+  if (!(step.dt > 0)) return;
   if (m_watch.hasChanged()) adaptToBody();
+  const bool isIdle = m_effects.empty() && !m_water.movedSinceCommit();
+  if (isIdle ? m_body.m_bUpdateRtCst : m_masses.seemSet()) takeOverMasses();
+  if (isIdle) return;
   apply(Stage::sources, Stage::material, step);
   if (m_water.movedSinceCommit()) commit();
   if (isAwake(step)) apply(Stage::forces, Stage::elasticity, step);
@@ -96,18 +99,34 @@ void WetCloth::stepContacts(const Step& step) {
   apply(Stage::contact, Stage::contact, step);
 }
 
-// --- a body that was cut or refined ---------------------------------------------------------------------------------
+// --- what the application did to the body ---------------------------------------------------------------------------
+
+void WetCloth::followBody() {
+  if (m_watch.hasChanged()) adaptToBody();
+  takeOverMasses();
+}
+
+void WetCloth::takeOverMasses() {
+  if (m_masses.takeOver(m_water)) commit();
+}
+
+// An application reads right after a cut, too.
+void WetCloth::followCut() const {
+  if (m_world.isInWorld(m_body) && m_watch.nodesChanged()) const_cast<WetCloth*>(this)->adaptToBody();
+}
 
 void WetCloth::adaptToBody() {
-  if (m_watch.nodesChanged()) {
-    log("wetcloth: the body's nodes changed from " + std::to_string(m_watch.nodes()) + " to " +
-        std::to_string(m_body.m_nodes.size()) + "; its water is kept");
+  const int nodesBefore = m_watch.nodes();
+  const bool nodesChanged = m_watch.nodesChanged();
+  m_watch.remember();
+  if (nodesChanged) {
     redistributeWater(m_body, m_fabric.arealDensity, m_water);
     m_masses.remember();
-    commit();
+    if (m_water.movedSinceCommit()) commit();
+    log("wetcloth: the body's nodes changed from " + std::to_string(nodesBefore) + " to " +
+        std::to_string(m_body.m_nodes.size()) + "; its water is kept");
   }
   m_restMesh.reset();
-  m_watch.remember();
   if (!m_effects.attachAgain()) m_world.shareTick();
 }
 
@@ -123,12 +142,18 @@ void WetCloth::joinArrivals() {
   for (std::size_t i = 0; i < m_water.size(); ++i) joinArrivals(i);
 }
 
+int WetCloth::nodeCount() const {
+  followCut();
+  return static_cast<int>(m_water.size());
+}
+
 double WetCloth::saturation(int node) const { return m_water.saturation(checked(node)); }
 double WetCloth::held(int node) const { return m_water.held(checked(node)); }
 double WetCloth::dryMass(int node) const { return m_water.dryMass(checked(node)); }
 double WetCloth::capacity(int node) const { return m_water.capacity(checked(node)); }
 
 double WetCloth::meanSaturation() const {
+  followCut();
   double held = 0;
   double capacity = 0;
   for (std::size_t i = 0; i < m_water.size(); ++i) {
@@ -140,14 +165,14 @@ double WetCloth::meanSaturation() const {
 
 void WetCloth::setSaturation(double saturation) {
   requireFraction("saturation", saturation);
-  if (m_watch.hasChanged()) adaptToBody();
+  followBody();
   std::vector<double> held(m_water.size());
   for (std::size_t i = 0; i < held.size(); ++i) held[i] = saturation * m_water.capacity(i);
   setHeld(held);
 }
 
 void WetCloth::setHeld(const std::vector<double>& held) {
-  if (m_watch.hasChanged()) adaptToBody();
+  followBody();
   if (held.size() != m_water.size()) {
     rejectValue("held.size()", held.size(), "the number of nodes, " + std::to_string(m_water.size()));
   }
@@ -157,12 +182,14 @@ void WetCloth::setHeld(const std::vector<double>& held) {
 }
 
 double WetCloth::totalMass() const {
+  followCut();
   double mass = 0;
   for (std::size_t i = 0; i < m_water.size(); ++i) mass += m_water.totalMass(i);
   return mass;
 }
 
 std::size_t WetCloth::checked(int node) const {
+  followCut();
   if (node < 0 || static_cast<std::size_t>(node) >= m_water.size()) {
     throw std::out_of_range("node = " + std::to_string(node) + ": must be in [0, " + std::to_string(m_water.size()) +
                             ")");

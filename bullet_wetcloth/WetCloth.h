@@ -94,7 +94,9 @@ class WETCLOTH_EXPORT WetCloth {
 
   // --- water ------------------------------------------------------------------------------------------------
 
-  int nodeCount() const { return static_cast<int>(m_water.size()); }
+  // To read right after the body was cut or refined is to adapt to it, as the next step would: effects attach again.
+
+  int nodeCount() const;
   /// held / capacity of a node: 0 dry, 1 saturated. Throws std::out_of_range.
   double saturation(int node) const;
   /// Water held by a node [kg]. Throws std::out_of_range.
@@ -176,6 +178,9 @@ class WETCLOTH_EXPORT WetCloth {
   void apply(Stage first, Stage last, const Step& step);
   void commit();
   bool isAwake(const Step& step);
+  void followBody();
+  void takeOverMasses();
+  void followCut() const;
   void adaptToBody();
   void transferState(StateArchive& archive);
   void transferMesh(StateArchive& archive);
