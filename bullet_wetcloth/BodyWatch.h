@@ -8,15 +8,27 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-/// Notices that a body was cut or refined: that its nodes, links or faces changed in number.
+/// Notices that a body was cut or refined: that its nodes, links or faces changed in number. And that it entered its
+/// world anew.
 class WETCLOTH_EXPORT BodyWatch {
  public:
-  explicit BodyWatch(const btSoftBody& body) : m_body(body) { remember(); }
+  explicit BodyWatch(const btSoftBody& body) : m_body(body) {
+    remember();
+    enteredAnew();
+  }
 
   bool hasChanged() const {
     return nodesChanged() || m_body.m_links.size() != m_links || m_body.m_faces.size() != m_faces;
   }
   bool nodesChanged() const { return m_body.m_nodes.size() != m_nodes; }
+  /// Whether it has another entry in the broadphase than when this was last asked.
+  bool enteredAnew() {
+    const btBroadphaseProxy* const proxy = m_body.getBroadphaseHandle();
+    const int entry = proxy ? proxy->m_uniqueId : kNoEntry;
+    const bool isNew = entry != m_entry;
+    m_entry = entry;
+    return isNew;
+  }
   /// As last remembered.
   int nodes() const { return m_nodes; }
   /// Takes the body as it is now for the known one.
@@ -27,7 +39,10 @@ class WETCLOTH_EXPORT BodyWatch {
   }
 
  private:
+  static constexpr int kNoEntry = -1;
+
   const btSoftBody& m_body;
+  int m_entry = kNoEntry;
   int m_nodes = 0;
   int m_links = 0;
   int m_faces = 0;

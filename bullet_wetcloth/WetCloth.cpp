@@ -21,6 +21,7 @@ WetCloth::WetCloth(WetClothWorld& world, btSoftBody& body, Fabric fabric, bool d
       m_deformable(deformable),
       m_masses(body, deformable),
       m_linkConstants(body),
+      m_restLengths(body),
       m_effects(*this),
       m_watch(body) {
   m_water.reset(dryMasses(m_body, m_fabric.arealDensity), m_fabric.capacity);
@@ -36,6 +37,7 @@ void WetCloth::log(const std::string& message) const { m_world.log(message); }
 Effect& WetCloth::add(std::unique_ptr<Effect> effect, const void* type) {
   if (!effect) reject("effect", "must not be null");
   followBody();
+  if (m_effects.empty()) attachAgain();
   Effect& added = m_effects.add(std::move(effect), type);
   if (added.stage() == Stage::contact) m_world.shareTick();
   return added;
@@ -64,6 +66,7 @@ void WetCloth::step(const Step& step) {
   const bool isIdle = m_effects.empty() && !m_water.movedSinceCommit();
   if (isIdle ? m_body.m_bUpdateRtCst : m_masses.seemSet()) takeOverMasses();
   if (isIdle) return;
+  if (m_restLengths.haveChanged()) attachAgain();
   apply(Stage::sources, Stage::material, step);
   if (m_water.movedSinceCommit()) commit();
   if (isAwake(step)) apply(Stage::forces, Stage::elasticity, step);
@@ -101,7 +104,19 @@ void WetCloth::stepContacts(const Step& step) {
 
 // --- what the application did to the body ---------------------------------------------------------------------------
 
+bool WetCloth::isOfThisBody() {
+  const bool isUnstepped = m_body.m_bUpdateRtCst;  // as one that was just made, or whose masses were just set
+  if (m_watch.enteredAnew() && isUnstepped) {
+    m_isReplaced = m_isReplaced || m_hasStepped || m_watch.nodesChanged() || m_masses.wereSet();
+  }
+  m_hasStepped = m_hasStepped || !isUnstepped;
+  return !m_isReplaced;
+}
+
 void WetCloth::followBody() {
+  if (m_world.isInWorld(m_body) && !isOfThisBody()) {
+    reject("body", "is another one than was added, at its address: add() it to the WetClothWorld");
+  }
   if (m_watch.hasChanged()) adaptToBody();
   takeOverMasses();
 }
@@ -112,7 +127,9 @@ void WetCloth::takeOverMasses() {
 
 // An application reads right after a cut, too.
 void WetCloth::followCut() const {
-  if (m_world.isInWorld(m_body) && m_watch.nodesChanged()) const_cast<WetCloth*>(this)->adaptToBody();
+  if (!m_world.isInWorld(m_body) || !m_watch.nodesChanged()) return;
+  WetCloth& self = const_cast<WetCloth&>(*this);
+  if (self.isOfThisBody()) self.adaptToBody();
 }
 
 void WetCloth::adaptToBody() {
@@ -126,12 +143,18 @@ void WetCloth::adaptToBody() {
     log("wetcloth: the body's nodes changed from " + std::to_string(nodesBefore) + " to " +
         std::to_string(m_body.m_nodes.size()) + "; its water is kept");
   }
+  attachAgain();
+}
+
+// To a body whose mesh or shape at rest is another one.
+void WetCloth::attachAgain() {
   m_restMesh.reset();
+  m_restLengths.remember();
   if (!m_effects.attachAgain()) m_world.shareTick();
 }
 
 const RestMesh& WetCloth::restMesh() {
-  if (!m_restMesh) m_restMesh.emplace(m_body);
+  if (!m_restMesh) m_restMesh.emplace(m_body, m_restLengths);
   return *m_restMesh;
 }
 
@@ -215,6 +238,7 @@ void WetCloth::transferState(StateArchive& archive) {
   m_water.transferState(archive);
   m_masses.transferState(archive);
   m_linkConstants.transferState(archive);
+  m_restLengths.transferState(archive);
   transferMesh(archive);
   m_effects.transferState(archive);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/mesh/RestLengths.h"
 
 #include <BulletSoftBody/btSoftBody.h>
 
@@ -40,7 +41,9 @@ class WETCLOTH_EXPORT RestMesh {
   };
 
   /// O(faces log faces).
-  explicit RestMesh(const btSoftBody& body);
+  explicit RestMesh(const btSoftBody& body) : RestMesh(body, RestLengths(body)) {}
+  /// With the natural lengths of the body's links, which an effect may have changed.
+  RestMesh(const btSoftBody& body, const RestLengths& lengths);
 
   std::size_t nodeCount() const { return m_nodeAreas.size(); }
   const std::vector<Edge>& edges() const { return m_edges; }
@@ -57,7 +60,7 @@ class WETCLOTH_EXPORT RestMesh {
 
  private:
   void findEdges(const btSoftBody& body);
-  void takeLinkLengths(const btSoftBody& body);
+  void takeLinkLengths(const btSoftBody& body, const RestLengths& lengths);
   void findTriangles(const btSoftBody& body);
   void findNeighbours();
   int edgeBetween(int a, int b) const;

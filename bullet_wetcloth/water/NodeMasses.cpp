@@ -17,7 +17,7 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-constexpr std::size_t kLooks = 32;  // steps in which all nodes are looked at
+constexpr std::size_t kStepsForAllNodes = 32;  // steps in which all nodes are looked at
 
 }  // namespace
 
@@ -30,9 +30,16 @@ bool NodeMasses::seemSet() {
   if (m_body.m_bUpdateRtCst) return true;
   const std::size_t count = m_inverseMass.size();
   const std::size_t first = m_nextNode < count ? m_nextNode : 0;
-  const std::size_t end = std::min(first + count / kLooks + 1, count);
+  const std::size_t end = std::min(first + count / kStepsForAllNodes + 1, count);
   m_nextNode = end;
   for (std::size_t i = first; i < end; ++i) {
+    if (m_body.m_nodes[static_cast<int>(i)].m_im != m_inverseMass[i]) return true;
+  }
+  return false;
+}
+
+bool NodeMasses::wereSet() const {
+  for (std::size_t i = 0; i < m_inverseMass.size(); ++i) {
     if (m_body.m_nodes[static_cast<int>(i)].m_im != m_inverseMass[i]) return true;
   }
   return false;

@@ -30,6 +30,8 @@ class WETCLOTH_EXPORT NodeMasses {
   /// tells at once, until Bullet's next step; of masses that were written by hand a part is looked at, another one in
   /// each call, and all within 32 calls.
   bool seemSet();
+  /// The same for certain: looks at all nodes.
+  bool wereSet() const;
   /// Looks at all nodes for masses that the application set: each is that node's new dry mass, and its water stays. The
   /// dry masses of pinned nodes, which Bullet does not keep, change in proportion to those of the free ones together,
   /// as if the cloth had been added with them. Returns whether there was one and the cloth holds water, so that masses
