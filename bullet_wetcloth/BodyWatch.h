@@ -8,11 +8,15 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-/// Notices that a body was cut or refined: that its nodes, links or faces changed in number.
+/// Notices that a body was cut or refined: that its nodes, links or faces changed in number. And that it entered its
+/// world anew.
 class WETCLOTH_EXPORT BodyWatch {
  public:
   /// The body, as it is now; it must outlive this.
-  explicit BodyWatch(const btSoftBody& body) : m_body(body) { remember(); }
+  explicit BodyWatch(const btSoftBody& body) : m_body(body) {
+    remember();
+    enteredAnew();
+  }
 
   /// Whether the body has another number of nodes, links or faces than was last remembered.
   bool hasChanged() const {
@@ -20,6 +24,14 @@ class WETCLOTH_EXPORT BodyWatch {
   }
   /// Whether it has another number of nodes.
   bool nodesChanged() const { return m_body.m_nodes.size() != m_nodes; }
+  /// Whether it has another entry in the broadphase than when this was last asked.
+  bool enteredAnew() {
+    const btBroadphaseProxy* const proxy = m_body.getBroadphaseHandle();
+    const int entry = proxy ? proxy->m_uniqueId : kNoEntry;
+    const bool isNew = entry != m_entry;
+    m_entry = entry;
+    return isNew;
+  }
   /// As last remembered.
   int nodes() const { return m_nodes; }
   /// Takes the body as it is now for the known one.
@@ -30,7 +42,10 @@ class WETCLOTH_EXPORT BodyWatch {
   }
 
  private:
+  static constexpr int kNoEntry = -1;
+
   const btSoftBody& m_body;
+  int m_entry = kNoEntry;
   int m_nodes = 0;
   int m_links = 0;
   int m_faces = 0;

@@ -39,7 +39,8 @@ struct Step {
 /// The contract of a derived class:
 /// - its constructor checks its parameters and throws std::invalid_argument naming the field and the value;
 /// - attach() is called once, when the effect is added, and again whenever the body's nodes, links or faces
-///   changed in number; it builds what apply() needs and throws std::invalid_argument when the body lacks it;
+///   changed in number, or somebody changed its links' lengths at rest; it builds what apply() needs and throws
+///   std::invalid_argument when the body lacks it;
 /// - apply() never throws, never writes a value that is not finite, and never allocates after its first call, but to
 ///   factor a matrix anew when the step's length, the masses or the stiffness have changed;
 /// - it changes water only through WetCloth::water(), and velocities only through WetCloth::push(); water that leaves a

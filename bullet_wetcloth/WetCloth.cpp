@@ -21,6 +21,7 @@ WetCloth::WetCloth(WetClothWorld& world, btSoftBody& body, Fabric fabric, bool d
       m_deformable(deformable),
       m_masses(body, deformable),
       m_linkConstants(body),
+      m_restLengths(body),
       m_effects(*this),
       m_watch(body) {
   m_water.reset(dryMasses(m_body, m_fabric.arealDensity), m_fabric.capacity);
@@ -35,7 +36,8 @@ void WetCloth::log(const std::string& message) const { m_world.log(message); }
 
 Effect& WetCloth::add(std::unique_ptr<Effect> effect, const void* type) {
   if (!effect) reject("effect", "must not be null");
-  if (m_watch.hasChanged()) adaptToBody();
+  followBody();
+  if (m_effects.empty()) attachAgain();
   Effect& added = m_effects.add(std::move(effect), type);
   if (added.stage() == Stage::contact) m_world.shareTick();
   return added;
@@ -59,8 +61,12 @@ void WetCloth::observe(const Step& step) {
 }
 
 void WetCloth::step(const Step& step) {
-  if ((m_effects.empty() && !m_water.movedSinceCommit()) || !(step.dt > 0)) return;
+  if (!(step.dt > 0)) return;
   if (m_watch.hasChanged()) adaptToBody();
+  const bool isIdle = m_effects.empty() && !m_water.movedSinceCommit();
+  if (isIdle ? m_body.m_bUpdateRtCst : m_masses.seemSet()) takeOverMasses();
+  if (isIdle) return;
+  if (m_restLengths.haveChanged()) attachAgain();
   apply(Stage::sources, Stage::material, step);
   if (m_water.movedSinceCommit()) commit();
   if (isAwake(step)) apply(Stage::forces, Stage::elasticity, step);
@@ -96,23 +102,59 @@ void WetCloth::stepContacts(const Step& step) {
   apply(Stage::contact, Stage::contact, step);
 }
 
-// --- a body that was cut or refined ---------------------------------------------------------------------------------
+// --- what the application did to the body ---------------------------------------------------------------------------
+
+bool WetCloth::isOfThisBody() {
+  const bool isUnstepped = m_body.m_bUpdateRtCst;  // as one that was just made, or whose masses were just set
+  if (m_watch.enteredAnew() && isUnstepped) {
+    m_isReplaced = m_isReplaced || m_hasStepped || m_watch.nodesChanged() || m_masses.wereSet();
+  }
+  m_hasStepped = m_hasStepped || !isUnstepped;
+  return !m_isReplaced;
+}
+
+void WetCloth::followBody() {
+  if (m_world.isInWorld(m_body) && !isOfThisBody()) {
+    reject("body", "is another one than was added, at its address: add() it to the WetClothWorld");
+  }
+  if (m_watch.hasChanged()) adaptToBody();
+  takeOverMasses();
+}
+
+void WetCloth::takeOverMasses() {
+  if (m_masses.takeOver(m_water)) commit();
+}
+
+// An application reads right after a cut, too.
+void WetCloth::followCut() const {
+  if (!m_world.isInWorld(m_body) || !m_watch.nodesChanged()) return;
+  WetCloth& self = const_cast<WetCloth&>(*this);
+  if (self.isOfThisBody()) self.adaptToBody();
+}
 
 void WetCloth::adaptToBody() {
-  if (m_watch.nodesChanged()) {
-    log("wetcloth: the body's nodes changed from " + std::to_string(m_watch.nodes()) + " to " +
-        std::to_string(m_body.m_nodes.size()) + "; its water is kept");
+  const int nodesBefore = m_watch.nodes();
+  const bool nodesChanged = m_watch.nodesChanged();
+  m_watch.remember();
+  if (nodesChanged) {
     redistributeWater(m_body, m_fabric.arealDensity, m_water);
     m_masses.remember();
-    commit();
+    if (m_water.movedSinceCommit()) commit();
+    log("wetcloth: the body's nodes changed from " + std::to_string(nodesBefore) + " to " +
+        std::to_string(m_body.m_nodes.size()) + "; its water is kept");
   }
+  attachAgain();
+}
+
+// To a body whose mesh or shape at rest is another one.
+void WetCloth::attachAgain() {
   m_restMesh.reset();
-  m_watch.remember();
+  m_restLengths.remember();
   if (!m_effects.attachAgain()) m_world.shareTick();
 }
 
 const RestMesh& WetCloth::restMesh() {
-  if (!m_restMesh) m_restMesh.emplace(m_body);
+  if (!m_restMesh) m_restMesh.emplace(m_body, m_restLengths);
   return *m_restMesh;
 }
 
@@ -123,12 +165,18 @@ void WetCloth::joinArrivals() {
   for (std::size_t i = 0; i < m_water.size(); ++i) joinArrivals(i);
 }
 
+int WetCloth::nodeCount() const {
+  followCut();
+  return static_cast<int>(m_water.size());
+}
+
 double WetCloth::saturation(int node) const { return m_water.saturation(checked(node)); }
 double WetCloth::held(int node) const { return m_water.held(checked(node)); }
 double WetCloth::dryMass(int node) const { return m_water.dryMass(checked(node)); }
 double WetCloth::capacity(int node) const { return m_water.capacity(checked(node)); }
 
 double WetCloth::meanSaturation() const {
+  followCut();
   double held = 0;
   double capacity = 0;
   for (std::size_t i = 0; i < m_water.size(); ++i) {
@@ -140,14 +188,14 @@ double WetCloth::meanSaturation() const {
 
 void WetCloth::setSaturation(double saturation) {
   requireFraction("saturation", saturation);
-  if (m_watch.hasChanged()) adaptToBody();
+  followBody();
   std::vector<double> held(m_water.size());
   for (std::size_t i = 0; i < held.size(); ++i) held[i] = saturation * m_water.capacity(i);
   setHeld(held);
 }
 
 void WetCloth::setHeld(const std::vector<double>& held) {
-  if (m_watch.hasChanged()) adaptToBody();
+  followBody();
   if (held.size() != m_water.size()) {
     rejectValue("held.size()", held.size(), "the number of nodes, " + std::to_string(m_water.size()));
   }
@@ -157,12 +205,14 @@ void WetCloth::setHeld(const std::vector<double>& held) {
 }
 
 double WetCloth::totalMass() const {
+  followCut();
   double mass = 0;
   for (std::size_t i = 0; i < m_water.size(); ++i) mass += m_water.totalMass(i);
   return mass;
 }
 
 std::size_t WetCloth::checked(int node) const {
+  followCut();
   if (node < 0 || static_cast<std::size_t>(node) >= m_water.size()) {
     throw std::out_of_range("node = " + std::to_string(node) + ": must be in [0, " + std::to_string(m_water.size()) +
                             ")");
@@ -188,6 +238,7 @@ void WetCloth::transferState(StateArchive& archive) {
   m_water.transferState(archive);
   m_masses.transferState(archive);
   m_linkConstants.transferState(archive);
+  m_restLengths.transferState(archive);
   transferMesh(archive);
   m_effects.transferState(archive);
 }

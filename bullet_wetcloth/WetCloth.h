@@ -7,6 +7,7 @@
 #include "bullet_wetcloth/EffectType.h"
 #include "bullet_wetcloth/Fabric.h"
 #include "bullet_wetcloth/Range.h"
+#include "bullet_wetcloth/mesh/RestLengths.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
 #include "bullet_wetcloth/shading/Colour.h"
 #include "bullet_wetcloth/water/LinkConstants.h"
@@ -105,8 +106,10 @@ class WETCLOTH_EXPORT WetCloth {
 
   // --- water ------------------------------------------------------------------------------------------------
 
+  // To read right after the body was cut or refined is to adapt to it, as the next step would: effects attach again.
+
   /// Nodes of the body.
-  int nodeCount() const { return static_cast<int>(m_water.size()); }
+  int nodeCount() const;
   /// held / capacity of a node: 0 dry, 1 saturated. Throws std::out_of_range.
   double saturation(int node) const;
   /// Water held by a node [kg]. Throws std::out_of_range.
@@ -155,8 +158,13 @@ class WETCLOTH_EXPORT WetCloth {
   LinkConstants& linkConstants() { return m_linkConstants; }
   /// The same, to look at.
   const LinkConstants& linkConstants() const { return m_linkConstants; }
+  /// The lengths of the links at rest, and who changes them.
+  RestLengths& restLengths() { return m_restLengths; }
+  /// The same, to look at.
+  const RestLengths& restLengths() const { return m_restLengths; }
   /// The cloth's triangles at rest. Built when first asked for, and again after the body's nodes, links or faces
-  /// changed in number: ask in attach(), which is called then.
+  /// changed in number, or the lengths of its links at rest, and with the first effect: ask in attach(), which is
+  /// called then.
   const RestMesh& restMesh();
 
   /// Adds to a free node's velocity, in the way that each of Bullet's worlds takes notice of.
@@ -198,7 +206,14 @@ class WETCLOTH_EXPORT WetCloth {
   void apply(Stage first, Stage last, const Step& step);
   void commit();
   bool isAwake(const Step& step);
+  /// Whether the body, which is in the world, is the one that was added. One that came back may be another that an
+  /// allocator has put at its address: it is the same if it has stepped, or is in all as we left it.
+  bool isOfThisBody();
+  void followBody();
+  void takeOverMasses();
+  void followCut() const;
   void adaptToBody();
+  void attachAgain();
   void transferState(StateArchive& archive);
   void transferMesh(StateArchive& archive);
   std::size_t checked(int node) const;
@@ -210,11 +225,14 @@ class WETCLOTH_EXPORT WetCloth {
   Water m_water;
   NodeMasses m_masses;
   LinkConstants m_linkConstants;
+  RestLengths m_restLengths;
   std::optional<RestMesh> m_restMesh;
   EffectList m_effects;
   BodyWatch m_watch;
   double m_massAsleep = 0;  // when Bullet let the body sleep, 0 while it is awake [kg]
   bool m_wasPresent = true;
+  bool m_hasStepped = false;
+  bool m_isReplaced = false;  // by another body at the same address
 };
 
 }  // namespace WETCLOTH_PRECISION

@@ -38,10 +38,29 @@ bool isDeformable(const btDynamicsWorld& world) {
   return world.getWorldType() == BT_DEFORMABLE_MULTIBODY_DYNAMICS_WORLD;
 }
 
+bool isReduced(const btSoftBody& body) {
+#if BT_BULLET_VERSION >= 323
+  return body.m_reducedModel;
+#else
+  static_cast<void>(body);
+  return false;
+#endif
+}
+
+bool hasGravityForce(btDeformableBodySolver& solver) {
+  const btAlignedObjectArray<btDeformableLagrangianForce*>& forces = *solver.getLagrangianForceArray();
+  for (int i = 0; i < forces.size(); ++i) {
+    if (forces[i]->getForceType() == BT_GRAVITY_FORCE) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-WetClothWorld::WetClothWorld(btDynamicsWorld& world, Hook hook)
-    : m_world(world), m_hook(hook), m_log([](const std::string& message) { std::clog << message << '\n'; }) {
+WetClothWorld::WetClothWorld(btDynamicsWorld& world, Hook hook, const Layout& caller)
+    : m_world((requireLayout(caller, kLayout), world)),
+      m_hook(hook),
+      m_log([](const std::string& message) { std::clog << message << '\n'; }) {
   if (!softBodiesOf(world)) {
     rejectValue("world.getWorldType()", static_cast<int>(world.getWorldType()),
                 "that of a btSoftRigidDynamicsWorld, btSoftMultiBodyDynamicsWorld or "
@@ -53,15 +72,35 @@ WetClothWorld::WetClothWorld(btDynamicsWorld& world, Hook hook)
 }
 
 WetClothWorld::~WetClothWorld() {
+  if (!m_cloths.empty()) detach();
+}
+
+void WetClothWorld::detach() {
   for (const auto& cloth : m_cloths) {
-    if (isInWorld(cloth->m_body)) cloth->m_effects.clear();
+    if (isInWorld(cloth->m_body) && cloth->isOfThisBody()) cloth->m_effects.clear();
   }
+  m_cloths.clear();
+  if (!m_substepHook) return;
+  m_substepHook->giveBack(SubstepHook::Slot::preTick);
+  m_substepHook->giveBack(SubstepHook::Slot::tick);
+  m_substepHook.reset();
+  m_sharesTick = false;
+}
+
+void WetClothWorld::requireAttached() const {
+  if (!m_substepHook) reject("WetClothWorld", "is detached from its world");
 }
 
 WetCloth& WetClothWorld::add(btSoftBody& body, const Fabric& fabric) {
+  requireAttached();
   requireValid(fabric);
   if (!isInWorld(body)) reject("body", "is not in this world; add it to the world first");
-  if (find(body)) reject("body", "was added already");
+  if (WetCloth* const known = find(body)) {
+    if (known->isOfThisBody()) reject("body", "was added already");
+    forget(*known);
+  }
+  if (isReduced(body)) reject("body", "is a reduced deformable body: it moves by its modes and reads no node's mass");
+  warnOfMissingGravity(body);
   if (m_hook == Hook::preTick && !isHooked()) {
     log("wetcloth: another pre-tick callback has replaced ours; no cloth will get wet unless it calls preTick()");
   }
@@ -78,8 +117,15 @@ void WetClothWorld::remove(btSoftBody& body) {
   const auto wraps = [&](const std::unique_ptr<WetCloth>& cloth) { return &cloth->body() == &body; };
   const auto position = std::find_if(m_cloths.begin(), m_cloths.end(), wraps);
   if (position == m_cloths.end()) reject("body", "was not added to this WetClothWorld");
-  (*position)->m_effects.clear();
+  if (!isInWorld(body) || (*position)->isOfThisBody()) (*position)->m_effects.clear();
   m_cloths.erase(position);
+  shareTick();
+}
+
+// Whose body is gone: there is nothing to give back.
+void WetClothWorld::forget(const WetCloth& cloth) {
+  const auto isIt = [&](const std::unique_ptr<WetCloth>& other) { return other.get() == &cloth; };
+  m_cloths.erase(std::find_if(m_cloths.begin(), m_cloths.end(), isIt));
   shareTick();
 }
 
@@ -95,13 +141,13 @@ WetCloth* WetClothWorld::find(const btSoftBody& body) {
 }
 
 bool WetClothWorld::isHooked() const {
-  return m_hook == Hook::preTick && m_substepHook->isInPlace(SubstepHook::Slot::preTick);
+  return m_hook == Hook::preTick && m_substepHook && m_substepHook->isInPlace(SubstepHook::Slot::preTick);
 }
 
 bool WetClothWorld::isTickHooked() const { return m_sharesTick && m_substepHook->isInPlace(SubstepHook::Slot::tick); }
 
 void WetClothWorld::preTick(btScalar dt) {
-  if (!(std::isfinite(dt) && dt > 0)) return;
+  if (!m_substepHook || !(std::isfinite(dt) && dt > 0)) return;
   m_stepStart = m_time;
   for (const auto& cloth : m_cloths) {
     if (noticePresence(*cloth)) cloth->observe(stepOf(cloth->m_body, dt, m_time));
@@ -138,13 +184,24 @@ void WetClothWorld::shareTick() {
 
 // A body that left the world may have been deleted, so only its address is looked at.
 bool WetClothWorld::noticePresence(WetCloth& cloth) const {
-  const bool isPresent = isInWorld(cloth.m_body);
+  const bool isInPlace = isInWorld(cloth.m_body);
+  const bool isPresent = isInPlace && cloth.isOfThisBody();
   if (isPresent != cloth.m_wasPresent) {
     cloth.m_wasPresent = isPresent;
-    log(isPresent ? "wetcloth: a body came back to the world; its effects run again"
-                  : "wetcloth: a body left the world; its effects rest until it comes back");
+    log(isPresent   ? "wetcloth: a body came back to the world; its effects run again"
+        : isInPlace ? "wetcloth: a body was taken out of the world, and another one is in its place; add that one"
+                    : "wetcloth: a body left the world; its effects rest until it comes back");
   }
   return isPresent;
+}
+
+// Whether steps are implicit is told to nobody before the first.
+void WetClothWorld::warnOfMissingGravity(const btSoftBody& body) const {
+  auto* const solver = isDeformable(m_world) ? static_cast<btDeformableBodySolver*>(body.getSoftBodySolver()) : nullptr;
+  if (!solver || hasGravityForce(*solver)) return;
+  log("wetcloth: no btDeformableGravityForce is in this world; an implicit step then takes a variable that Bullet "
+      "never "
+      "set for gravity, and may come to NaN. Add one before such a step, of gravity 0 where there is none");
 }
 
 Step WetClothWorld::stepOf(const btSoftBody& body, btScalar dt, double time) const {
@@ -185,12 +242,14 @@ void WetClothWorld::log(const std::string& message) const {
 }
 
 void WetClothWorld::save(std::ostream& stream) const {
+  requireAttached();
   StateArchive archive(m_world);
   const_cast<WetClothWorld*>(this)->transferState(archive);  // which changes nothing while saving
   StateEnvelope::write(stream, static_cast<std::uint32_t>(m_world.getWorldType()), archive.bytes());
 }
 
 void WetClothWorld::restore(std::istream& stream) {
+  requireAttached();
   StateArchive archive(m_world, StateEnvelope::read(stream, static_cast<std::uint32_t>(m_world.getWorldType())));
   transferState(archive);
   archive.rewind();

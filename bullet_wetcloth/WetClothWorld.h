@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Fabric.h"
+#include "bullet_wetcloth/Layout.h"
 #include "bullet_wetcloth/Range.h"
 #include "bullet_wetcloth/WetCloth.h"
 
@@ -30,24 +31,33 @@ enum class Hook {
 ///
 /// Works with btSoftRigidDynamicsWorld, btSoftMultiBodyDynamicsWorld and btDeformableMultiBodyDynamicsWorld. The
 /// application keeps its world, its bodies, its loop and its callbacks; nothing here deletes them. Destroy the
-/// WetClothWorld before the world, and remove() a cloth before its body is deleted. One object belongs to one
-/// thread at a time; different worlds may run in different threads.
+/// WetClothWorld, or detach() it, before the world is deleted, and remove() a cloth before its body is. One object
+/// belongs to one thread at a time; different worlds may run in different threads.
 class WETCLOTH_EXPORT WetClothWorld {
  public:
   /// Attaches to a world. An application's own callbacks go on being called, first, and the world's user info is not
-  /// touched. Throws std::invalid_argument when the world is of another kind or has a WetClothWorld.
+  /// touched. Throws std::invalid_argument when the world is of another kind or has a WetClothWorld, and when the
+  /// program and the library were compiled with settings that do not go together, such as _GLIBCXX_DEBUG in one of
+  /// them.
   explicit WetClothWorld(btDynamicsWorld& world, Hook hook = Hook::preTick);
-  /// Detaches: removes the cloths and puts the application's callbacks back.
+  /// As detach(), unless there are no cloths: then the world is not touched, and may be gone. Callbacks of a world that
+  /// is still there are put back when it next calls us.
   ~WetClothWorld();
   WetClothWorld(const WetClothWorld&) = delete;
   WetClothWorld& operator=(const WetClothWorld&) = delete;
 
   /// Wraps a soft body of this world; dry at first. Its free nodes' present masses are their dry masses.
   /// Throws std::invalid_argument when the body is not in the world, was added before, has no nodes or a mass that
-  /// is not finite, or when a field of the fabric is out of range.
+  /// is not finite, is a reduced deformable one, or when a field of the fabric is out of range. A cloth whose body was
+  /// deleted and that another body is found in the place of, is forgotten.
   WetCloth& add(btSoftBody& body, const Fabric& fabric = Fabric::cotton());
   /// The same; throws std::invalid_argument on null.
   WetCloth& add(btSoftBody* body, const Fabric& fabric = Fabric::cotton());
+  /// Lets go of the world now, so that it and its bodies may be deleted in any order: removes the cloths, whose effects
+  /// give back what they changed, and puts the application's callbacks back. Afterwards this object does nothing, its
+  /// destructor neither, and add(), save() and restore() throw std::invalid_argument.
+  void detach();
+
   /// Forgets a cloth. The body keeps its present (wet) masses. Throws std::invalid_argument when it is not known.
   void remove(btSoftBody& body);
   /// The cloth that wraps this body, or null.
@@ -112,21 +122,31 @@ class WETCLOTH_EXPORT WetClothWorld {
 
  private:
   friend class WetCloth;
+  WetClothWorld(btDynamicsWorld& world, Hook hook, const Layout& caller);
   void shareTick();
   void transferState(StateArchive& archive);
+  void requireAttached() const;
   bool noticePresence(WetCloth& cloth) const;
   Step stepOf(const btSoftBody& body, btScalar dt, double time) const;
   btVector3 gravityOf(const btSoftBody& body) const;
+  void warnOfMissingGravity(const btSoftBody& body) const;
+  void forget(const WetCloth& cloth);
 
   btDynamicsWorld& m_world;
   Hook m_hook;
-  std::unique_ptr<SubstepHook> m_substepHook;
+  std::unique_ptr<SubstepHook> m_substepHook;  // null once detached
   std::vector<std::unique_ptr<WetCloth>> m_cloths;
   std::function<void(const std::string&)> m_log;
   double m_time = 0;
   double m_stepStart = 0;  // of the substep that runs [s]
   bool m_sharesTick = false;
 };
+
+/// Of the file that includes this: each has a constant of its own.
+constexpr Layout kLayout = {sizeof(std::vector<double>), sizeof(std::string), sizeof(std::function<void()>),
+                            sizeof(btSoftBody),          sizeof(WetCloth),    sizeof(WetClothWorld)};
+
+inline WetClothWorld::WetClothWorld(btDynamicsWorld& world, Hook hook) : WetClothWorld(world, hook, kLayout) {}
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

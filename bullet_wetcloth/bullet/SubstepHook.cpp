@@ -24,6 +24,7 @@ struct Slots : btDynamicsWorld {
 struct Shared {
   btInternalTickCallback applicationCallback = nullptr;
   bool isRunning = false;  // a callback that was put on top of ours and calls it must not make a circle
+  bool isHeld = false;     // ours is in it, or was when somebody took it who may call ours
 };
 
 struct Entry {
@@ -63,17 +64,8 @@ Entry* findEntry(btDynamicsWorld* world) {
   return found == registry().end() ? nullptr : &found->second;
 }
 
-void call(SubstepHook::Slot slot, btDynamicsWorld* world, btScalar dt) {
-  Entry* const entry = findEntry(world);
-  if (!entry || entry->of(slot).isRunning) return;
-  Shared& shared = entry->of(slot);
-  const RunningMark mark(shared.isRunning);
-  if (shared.applicationCallback) shared.applicationCallback(world, dt);
-  if (entry->hook) entry->hook->call(slot, dt);
-}
-
-void onPreTick(btDynamicsWorld* world, btScalar dt) { call(SubstepHook::Slot::preTick, world, dt); }
-void onTick(btDynamicsWorld* world, btScalar dt) { call(SubstepHook::Slot::tick, world, dt); }
+void onPreTick(btDynamicsWorld* world, btScalar dt);
+void onTick(btDynamicsWorld* world, btScalar dt);
 
 btInternalTickCallback ours(SubstepHook::Slot slot) { return slot == SubstepHook::Slot::preTick ? onPreTick : onTick; }
 
@@ -81,6 +73,22 @@ void putBack(btDynamicsWorld& world, Entry& entry, SubstepHook::Slot slot) {
   btInternalTickCallback& callback = Slots::of(world, slot);
   if (callback == ours(slot)) callback = entry.of(slot).applicationCallback;
 }
+
+void call(SubstepHook::Slot slot, btDynamicsWorld* world, btScalar dt) {
+  Entry* const entry = findEntry(world);
+  if (!entry || entry->of(slot).isRunning) return;
+  Shared& shared = entry->of(slot);
+  const RunningMark mark(shared.isRunning);
+  if (shared.applicationCallback) shared.applicationCallback(world, dt);
+  if (entry->hook) {
+    entry->hook->call(slot, dt);
+  } else {
+    putBack(*world, *entry, slot);
+  }
+}
+
+void onPreTick(btDynamicsWorld* world, btScalar dt) { call(SubstepHook::Slot::preTick, world, dt); }
+void onTick(btDynamicsWorld* world, btScalar dt) { call(SubstepHook::Slot::tick, world, dt); }
 
 // Whether somebody took the slot after us, and may call us to reach the application's callback.
 bool mayStillBeCalled(btDynamicsWorld& world, Entry& entry, SubstepHook::Slot slot) {
@@ -104,25 +112,27 @@ SubstepHook::~SubstepHook() {
   if (found == registry().end()) return;
   Entry& entry = found->second;
   entry.hook = nullptr;
-  putBack(m_world, entry, Slot::preTick);
-  putBack(m_world, entry, Slot::tick);
   if (entry.preTick.isRunning || entry.tick.isRunning) return;  // by an application's callback: the entry is in use
-  if (mayStillBeCalled(m_world, entry, Slot::preTick) || mayStillBeCalled(m_world, entry, Slot::tick)) return;
+  if (entry.preTick.isHeld || entry.tick.isHeld) return;
   registry().erase(found);
 }
 
 void SubstepHook::take(Slot slot) {
   const std::lock_guard<std::mutex> lock(registryMutex());
   btInternalTickCallback& callback = Slots::of(m_world, slot);
+  Shared& shared = registry()[&m_world].of(slot);
+  shared.isHeld = true;
   if (callback == ours(slot)) return;
-  registry()[&m_world].of(slot).applicationCallback = callback;
+  shared.applicationCallback = callback;
   callback = ours(slot);
 }
 
 void SubstepHook::giveBack(Slot slot) {
   const std::lock_guard<std::mutex> lock(registryMutex());
   const auto found = registry().find(&m_world);
-  if (found != registry().end()) putBack(m_world, found->second, slot);
+  if (found == registry().end()) return;
+  putBack(m_world, found->second, slot);
+  found->second.of(slot).isHeld = mayStillBeCalled(m_world, found->second, slot);
 }
 
 bool SubstepHook::isInPlace(Slot slot) const { return Slots::of(m_world, slot) == ours(slot); }

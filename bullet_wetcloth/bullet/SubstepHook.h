@@ -24,15 +24,16 @@ class SubstepHook {
 
   /// The one hook of this world, which has no slot yet. Throws std::invalid_argument when the world has another one.
   SubstepHook(btDynamicsWorld& world, Callback onPreTick, Callback onTick);
-  /// Gives both slots back. If somebody took a slot after us and calls us from there, the call goes on to the
-  /// application's callback.
+  /// Does not touch the world, which may be gone: a slot that was not given back goes on to the application's callback,
+  /// and is given back when Bullet calls it.
   ~SubstepHook();
   SubstepHook(const SubstepHook&) = delete;
   SubstepHook& operator=(const SubstepHook&) = delete;
 
   /// Takes a slot, when it is not ours already: from then on the application's callback runs first and ours after it.
   void take(Slot slot);
-  /// Puts the application's callback back, unless somebody took the slot after us.
+  /// Puts the application's callback back, unless somebody took the slot after us. If that one calls us, the call goes
+  /// on to the application's callback.
   void giveBack(Slot slot);
   /// Whether Bullet will call us first in the next substep.
   bool isInPlace(Slot slot) const;

@@ -72,7 +72,7 @@ double shareOf(double saturation) { return saturation > 0 ? (saturation < 1 ? sa
 
 void fillVertexBuffer(const WetCloth& cloth, const VertexBuffer& buffer) {
   const btSoftBody& body = cloth.body();
-  requireValid(buffer, body.m_nodes.size());
+  requireValid(buffer, cloth.nodeCount());
   const Looks looks(cloth.fabric());
   const Water& water = cloth.water();
   Cursor position(buffer.base, buffer.position);
@@ -81,8 +81,7 @@ void fillVertexBuffer(const WetCloth& cloth, const VertexBuffer& buffer) {
   Cursor roughness(buffer.base, buffer.roughness);
   for (int i = 0; i < buffer.vertexCount; ++i) {
     const btSoftBody::Node& node = body.m_nodes[i];
-    const auto index = static_cast<std::size_t>(i);
-    const double wetness = index < water.size() ? shareOf(water.saturation(index)) : 0;
+    const double wetness = shareOf(water.saturation(static_cast<std::size_t>(i)));
     position.write(node.m_x.x(), node.m_x.y(), node.m_x.z());
     normal.write(node.m_n.x(), node.m_n.y(), node.m_n.z());
     colour.write(mix(looks.dry.r, looks.wet.r, wetness), mix(looks.dry.g, looks.wet.g, wetness),

@@ -41,7 +41,12 @@ void Swelling::attach(WetCloth& cloth) {
   }
   const Swelling* const other = cloth.find<Swelling>();
   if (other && other != this) reject("Swelling", "the cloth has one already");
+  m_isStale = true;
   const std::size_t known = m_lengths.size();
+  if (known == static_cast<std::size_t>(body.m_links.size())) {
+    if (areAllOther(body)) adoptReset(body);  // by btSoftBody::scale(), of the cloth as it was swollen
+    return;
+  }
   const bool isFirst = known == 0;
   m_saturation.reset(cloth.body(), cloth.water());
   m_lengths.resize(m_saturation.size());
@@ -53,7 +58,6 @@ void Swelling::attach(WetCloth& cloth) {
     m_lengths[k] = {natural, factor, found};
   }
   m_restLengthScale = body.getRestLengthScale();
-  m_isStale = true;
 }
 
 void Swelling::detach(WetCloth& cloth) {
@@ -66,6 +70,7 @@ void Swelling::detach(WetCloth& cloth) {
     adoptChange(m_lengths[k], link.m_rl, wasScaled);
     const btScalar natural = static_cast<btScalar>(m_lengths[k].natural);
     if (natural != link.m_rl) setRestLength(link, natural);
+    cloth.restLengths().note(k, natural, 1);
   }
 }
 
@@ -78,7 +83,14 @@ void Swelling::apply(WetCloth& cloth, const Step& step) {
   }
   if (m_lengthsWillBeReset) adoptReset(body);
   if (!m_saturation.update(cloth.water()) && !m_isStale) return;
-  writeLengths(body);
+  writeLengths(cloth);
+}
+
+bool Swelling::areAllOther(const btSoftBody& body) const {
+  for (std::size_t k = 0; k < m_lengths.size(); ++k) {
+    if (m_lengths[k].written == body.m_links[static_cast<int>(k)].m_rl) return false;
+  }
+  return true;
 }
 
 double Swelling::factorOf(std::size_t link) const {
@@ -102,7 +114,8 @@ void Swelling::adoptChange(Length& length, btScalar found, bool wasScaled) const
 }
 
 // Always from the natural length, so that no number of cycles adds up an error.
-void Swelling::writeLengths(btSoftBody& body) {
+void Swelling::writeLengths(WetCloth& cloth) {
+  btSoftBody& body = cloth.body();
   const bool wasScaled = body.getRestLengthScale() != m_restLengthScale;
   m_restLengthScale = body.getRestLengthScale();
   for (std::size_t k = 0; k < m_lengths.size(); ++k) {
@@ -112,6 +125,7 @@ void Swelling::writeLengths(btSoftBody& body) {
     length.factor = factorOf(k);
     length.written = static_cast<btScalar>(length.natural * length.factor);
     if (length.written != link.m_rl) setRestLength(link, length.written);
+    cloth.restLengths().note(k, length.written, length.factor);
   }
   m_linksVisited += static_cast<long long>(m_lengths.size());
   m_isStale = false;

@@ -62,10 +62,11 @@ class WETCLOTH_EXPORT Swelling : public Effect {
     btScalar written;  // the rest length that we last saw or wrote [m]
   };
 
+  bool areAllOther(const btSoftBody& body) const;
   double factorOf(std::size_t link) const;
   void adoptReset(btSoftBody& body);
   void adoptChange(Length& length, btScalar found, bool wasScaled) const;
-  void writeLengths(btSoftBody& body);
+  void writeLengths(WetCloth& cloth);
 
   Parameters m_parameters;
   LinkSaturation m_saturation;

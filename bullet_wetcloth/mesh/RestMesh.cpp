@@ -20,9 +20,10 @@ bool isBefore(const RestMesh::Edge& edge, const RestMesh::Edge& other) { return 
 
 }  // namespace
 
-RestMesh::RestMesh(const btSoftBody& body) : m_nodeAreas(static_cast<std::size_t>(body.m_nodes.size()), 0) {
+RestMesh::RestMesh(const btSoftBody& body, const RestLengths& lengths)
+    : m_nodeAreas(static_cast<std::size_t>(body.m_nodes.size()), 0) {
   findEdges(body);
-  takeLinkLengths(body);
+  takeLinkLengths(body, lengths);
   findTriangles(body);
   findNeighbours();
 }
@@ -45,11 +46,11 @@ void RestMesh::findEdges(const btSoftBody& body) {
   m_edges.shrink_to_fit();
 }
 
-void RestMesh::takeLinkLengths(const btSoftBody& body) {
+void RestMesh::takeLinkLengths(const btSoftBody& body, const RestLengths& lengths) {
   for (int k = 0; k < body.m_links.size(); ++k) {
     const btSoftBody::Link& link = body.m_links[k];
     const int edge = edgeBetween(nodeIndex(body, link.m_n[0]), nodeIndex(body, link.m_n[1]));
-    const double length = static_cast<double>(link.m_rl);
+    const double length = lengths.natural(toSize(k));
     if (edge >= 0 && length > 0 && std::isfinite(length)) m_edges[static_cast<std::size_t>(edge)].length = length;
   }
 }

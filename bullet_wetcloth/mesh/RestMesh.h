@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/mesh/RestLengths.h"
 
 #include <BulletSoftBody/btSoftBody.h>
 
@@ -43,7 +44,9 @@ class WETCLOTH_EXPORT RestMesh {
   };
 
   /// O(faces log faces).
-  explicit RestMesh(const btSoftBody& body);
+  explicit RestMesh(const btSoftBody& body) : RestMesh(body, RestLengths(body)) {}
+  /// With the natural lengths of the body's links, which an effect may have changed.
+  RestMesh(const btSoftBody& body, const RestLengths& lengths);
 
   /// Nodes of the body.
   std::size_t nodeCount() const { return m_nodeAreas.size(); }
@@ -63,7 +66,7 @@ class WETCLOTH_EXPORT RestMesh {
 
  private:
   void findEdges(const btSoftBody& body);
-  void takeLinkLengths(const btSoftBody& body);
+  void takeLinkLengths(const btSoftBody& body, const RestLengths& lengths);
   void findTriangles(const btSoftBody& body);
   void findNeighbours();
   int edgeBetween(int a, int b) const;

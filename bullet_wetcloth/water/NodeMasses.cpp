@@ -9,14 +9,67 @@
 #include <BulletSoftBody/btPreconditioner.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+namespace {
+
+constexpr std::size_t kStepsForAllNodes = 32;  // steps in which all nodes are looked at
+
+}  // namespace
+
 void NodeMasses::remember() {
   m_inverseMass.resize(static_cast<std::size_t>(m_body.m_nodes.size()));
   for (int i = 0; i < m_body.m_nodes.size(); ++i) m_inverseMass[static_cast<std::size_t>(i)] = m_body.m_nodes[i].m_im;
+}
+
+bool NodeMasses::seemSet() {
+  if (m_body.m_bUpdateRtCst) return true;
+  const std::size_t count = m_inverseMass.size();
+  const std::size_t first = m_nextNode < count ? m_nextNode : 0;
+  const std::size_t end = std::min(first + count / kStepsForAllNodes + 1, count);
+  m_nextNode = end;
+  for (std::size_t i = first; i < end; ++i) {
+    if (m_body.m_nodes[static_cast<int>(i)].m_im != m_inverseMass[i]) return true;
+  }
+  return false;
+}
+
+bool NodeMasses::wereSet() const {
+  for (std::size_t i = 0; i < m_inverseMass.size(); ++i) {
+    if (m_body.m_nodes[static_cast<int>(i)].m_im != m_inverseMass[i]) return true;
+  }
+  return false;
+}
+
+bool NodeMasses::takeOver(Water& water) {
+  bool isAnySet = false;
+  double held = 0;
+  double before = 0;  // dry mass of the nodes that were free and still are
+  double after = 0;
+  for (std::size_t i = 0; i < m_inverseMass.size(); ++i) {
+    const btScalar found = m_body.m_nodes[static_cast<int>(i)].m_im;
+    const bool isFree = found > 0 && m_inverseMass[i] > 0;
+    held += water.held(i);
+    before += isFree ? water.dryMass(i) : 0;
+    if (found != m_inverseMass[i]) {
+      isAnySet = true;
+      if (found > 0 && std::isfinite(found)) water.setDryMass(i, 1 / static_cast<double>(found));
+      m_inverseMass[i] = found;
+    }
+    after += isFree ? water.dryMass(i) : 0;
+  }
+  if (after != before) scalePinned(water, after / before);
+  return isAnySet && held > 0;
+}
+
+void NodeMasses::scalePinned(Water& water, double factor) const {
+  for (std::size_t i = 0; i < m_inverseMass.size(); ++i) {
+    if (m_inverseMass[i] == 0) water.setDryMass(i, water.dryMass(i) * factor);
+  }
 }
 
 bool NodeMasses::commit(Water& water) {
@@ -35,8 +88,7 @@ bool NodeMasses::writeNodes(Water& water) {
   for (std::size_t i = 0; i < m_inverseMass.size(); ++i) {
     btSoftBody::Node& node = m_body.m_nodes[static_cast<int>(i)];
     if (node.m_im != m_inverseMass[i]) {
-      if (node.m_im > 0) water.setDryMass(i, 1 / static_cast<double>(node.m_im));
-      m_inverseMass[i] = node.m_im;
+      takeOver(water);
       changed = true;
     }
     if (node.m_im == 0) continue;
@@ -149,6 +201,7 @@ void NodeMasses::refreshDeformable() {
 
 void NodeMasses::transferState(StateArchive& archive) {
   archive.array(m_inverseMass);
+  archive.value(m_nextNode);
   archive.value(m_commits);
 }
 

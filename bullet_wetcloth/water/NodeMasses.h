@@ -27,10 +27,21 @@ class WETCLOTH_EXPORT NodeMasses {
   /// Takes over the body's present masses as known.
   void remember();
 
+  /// Whether the application seems to have set masses since the last commit. What setMass() and its like leave behind
+  /// tells at once, until Bullet's next step; of masses that were written by hand a part is looked at, another one in
+  /// each call, and all within 32 calls.
+  bool seemSet();
+  /// The same for certain: looks at all nodes.
+  bool wereSet() const;
+  /// Looks at all nodes for masses that the application set: each is that node's new dry mass, and its water stays. The
+  /// dry masses of pinned nodes, which Bullet does not keep, change in proportion to those of the free ones together,
+  /// as if the cloth had been added with them. Returns whether there was one and the cloth holds water, so that masses
+  /// must be committed.
+  bool takeOver(Water& water);
+
   /// Writes dry mass plus water into each free node, mixes the momentum of what arrived
   /// (v' = (m v + p) / (m + dm)), and refreshes Bullet's caches if a mass changed, which it returns: then the links'
-  /// constants are out of date. A free node whose mass the application changed since the last commit takes that mass as
-  /// its new dry mass; a node it pinned stays pinned.
+  /// constants are out of date. Takes over what the application set; a node it pinned stays pinned.
   bool commit(Water& water);
 
   /// The first part of a commit, for water that is to move on in the same step: mixes in the momentum of what arrived
@@ -48,6 +59,7 @@ class WETCLOTH_EXPORT NodeMasses {
 
  private:
   bool writeNodes(Water& water);
+  void scalePinned(Water& water, double factor) const;
   void mixMomentum(btSoftBody::Node& node, const Water& water, std::size_t index) const;
   void refreshClusters();
   void refreshPose();
@@ -56,6 +68,7 @@ class WETCLOTH_EXPORT NodeMasses {
   btSoftBody& m_body;
   bool m_deformable;
   std::vector<btScalar> m_inverseMass;  // what we last wrote
+  std::size_t m_nextNode = 0;           // to look at
   long long m_commits = 0;
 };
 

@@ -143,7 +143,9 @@ void Water::replaceNodes(std::vector<double> dryMass, std::vector<double> held) 
   m_totalDryMass = compensatedSum(m_dryMass);
   m_held = std::move(held);
   m_arrivals.assign(m_held.size(), Arrival());
-  markMoved();
+  ++m_revision;
+  // A dry cloth's masses are as the application left them.
+  m_movedSinceCommit = m_movedSinceCommit || compensatedSum(m_held) > 0;
 }
 
 void Water::transferState(StateArchive& archive) {

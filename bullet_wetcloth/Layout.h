@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+
+#include <cstddef>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Sizes of types that an application and the library share [bytes]. They differ where the two were compiled with
+/// settings that change types, such as _GLIBCXX_DEBUG or Bullet's own macros: each would then read the other's objects
+/// wrongly. kLayout has the numbers: an inline function that the library calls, too, would be one
+/// of the two to the linker.
+struct Layout {
+  std::size_t vector;
+  std::size_t string;
+  std::size_t function;
+  std::size_t softBody;
+  std::size_t wetCloth;
+  std::size_t wetClothWorld;
+};
+
+/// Throws std::invalid_argument naming the first type of which the application has another idea than the library.
+WETCLOTH_EXPORT void requireLayout(const Layout& application, const Layout& library);
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Zlib
+// Who goes first: the world, its bodies, or we. A WetClothWorld that was detached, or has no cloths left, touches
+// nothing when it goes. Memory checkers watch these.
+
+#include "tests/support/CoreScene.h"
+
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+namespace wetcloth_test::detach_test {
+
+namespace {
+
+// All of it on the heap, to be deleted in any order.
+struct Parts {
+  explicit Parts(WorldKind kind)
+      : bullet(std::make_unique<BulletWorld>(kind)), body(hangingPatch(4).build(bullet->info())) {
+    bullet->add(*body);
+    wet = std::make_unique<wetcloth::WetClothWorld>(bullet->world());
+    wet->setLog({});
+    cloth = &wet->add(*body);
+    cloth->add<wetcloth::Absorption>();
+    if (!bullet->isDeformable()) cloth->add<wetcloth::WetFriction>();  // takes the tick callback
+    cloth->add<wetcloth::HookeSprings>(springsOf(200, 5));
+    bullet->step(5);
+  }
+  ~Parts() {
+    wet.reset();
+    if (bullet && body) bullet->remove(*body);
+  }
+  void deleteBody() {
+    if (bullet) bullet->remove(*body);
+    body.reset();
+  }
+
+  std::unique_ptr<BulletWorld> bullet;
+  std::unique_ptr<btSoftBody> body;
+  std::unique_ptr<wetcloth::WetClothWorld> wet;
+  wetcloth::WetCloth* cloth = nullptr;
+};
+
+class Detach : public InEveryWorld {};
+
+TEST_P(Detach, GivesBackWhatEffectsChanged) {
+  Parts parts(GetParam());
+  EXPECT_NE(parts.body->m_links[0].m_material, parts.body->m_materials[0]);
+  parts.wet->detach();
+  EXPECT_EQ(parts.body->m_links[0].m_material, parts.body->m_materials[0]);
+  EXPECT_TRUE(parts.wet->cloths().empty());
+  EXPECT_FALSE(parts.wet->isHooked());
+  EXPECT_FALSE(parts.wet->isTickHooked());
+  parts.bullet->step(3);
+  EXPECT_TRUE(isFinite(*parts.body));
+}
+
+TEST_P(Detach, AfterwardsTheObjectDoesNothing) {
+  Parts parts(GetParam());
+  parts.wet->detach();
+  const double time = parts.wet->time();
+  parts.wet->detach();
+  parts.wet->preTick(btScalar(0.01));
+  parts.wet->tick(btScalar(0.01));
+  EXPECT_EQ(parts.wet->time(), time);
+  EXPECT_EQ(parts.wet->find(*parts.body), nullptr);
+  EXPECT_THROW(parts.wet->add(*parts.body), std::invalid_argument);
+  EXPECT_THROW(parts.wet->remove(*parts.body), std::invalid_argument);
+  std::stringstream stream;
+  EXPECT_THROW(parts.wet->save(stream), std::invalid_argument);
+  EXPECT_THROW(parts.wet->restore(stream), std::invalid_argument);
+}
+
+TEST_P(Detach, ThenTheWorldMayHaveAnother) {
+  Parts parts(GetParam());
+  parts.wet->detach();
+  wetcloth::WetClothWorld another(parts.bullet->world());
+  EXPECT_TRUE(another.isHooked());
+  parts.wet.reset();
+  EXPECT_TRUE(another.isHooked());
+}
+
+// exitPhysics() of Bullet's demos deletes the bodies and the world; members go later.
+TEST_P(Detach, ThenWorldAndBodiesGoInAnyOrder) {
+  for (const bool bodyFirst : {true, false}) {
+    Parts parts(GetParam());
+    parts.wet->detach();
+    if (bodyFirst) parts.deleteBody();
+    parts.bullet.reset();
+    if (!bodyFirst) parts.deleteBody();
+    parts.wet.reset();
+  }
+}
+
+TEST_P(Detach, IsNotNeededWithoutCloths) {
+  for (const bool bodyFirst : {true, false}) {
+    Parts parts(GetParam());
+    parts.wet->remove(*parts.body);
+    if (bodyFirst) parts.deleteBody();
+    parts.bullet.reset();
+    if (!bodyFirst) parts.deleteBody();
+    parts.wet.reset();
+  }
+}
+
+int applicationCalls = 0;
+void onPreTick(btDynamicsWorld*, btScalar) { ++applicationCalls; }
+
+// We cannot know that the world is there, so the slot is given back when it calls.
+TEST_P(Detach, WithoutClothsTheApplicationsCallbackGoesOn) {
+  BulletWorld bullet(GetParam());
+  applicationCalls = 0;
+  bullet.world().setInternalTickCallback(onPreTick, nullptr, true);
+  { wetcloth::WetClothWorld wet(bullet.world()); }
+  bullet.step(3);
+  EXPECT_EQ(applicationCalls, 3);
+  bullet.world().setInternalTickCallback(nullptr, nullptr, true);
+  bullet.step(1);
+  EXPECT_EQ(applicationCalls, 3);
+}
+
+WETCLOTH_IN_EVERY_WORLD(Detach);
+
+}  // namespace
+}  // namespace wetcloth_test::detach_test
