@@ -6,6 +6,7 @@
 #include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/bullet/Contacts.h"
 #include "bullet_wetcloth/bullet/ImpulseMatrix.h"
+#include "bullet_wetcloth/bullet/ShapeReach.h"
 #include "bullet_wetcloth/numerics/ContactArea.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -40,6 +41,23 @@ int proxyNumberOf(const btCollisionObject& object) {
   return proxy ? proxy->m_uniqueId : -1;
 }
 
+// How far from a body's shape a node is still on it: Bullet has contacts within the margin.
+btScalar reachOf(const WetCloth& cloth) {
+  return btScalar(1.5) * cloth.body().getCollisionShape()->getMargin() + kContactMotionTolerance;
+}
+
+// How far a kinematic body has gone ahead of the node: it is at the end of its motion already.
+btVector3 lead(const btCollisionObject& object, const btVector3& position, double dt) {
+  const btRigidBody* rigid = btRigidBody::upcast(&object);
+  if (!rigid || !object.isKinematicObject()) return {0, 0, 0};
+  return rigid->getVelocityInLocalPoint(position - object.getWorldTransform().getOrigin()) * static_cast<btScalar>(dt);
+}
+
+// In the frame of a body; a kinematic one as it was when the node came there.
+btVector3 placeOn(const btCollisionObject& object, const btVector3& position, double dt) {
+  return object.getWorldTransform().invXform(position + lead(object, position, dt));
+}
+
 // A rigid body that an impulse moves, or null.
 btRigidBody* movable(btCollisionObject& object) {
   return object.isStaticOrKinematicObject() ? nullptr : btRigidBody::upcast(&object);
@@ -52,9 +70,8 @@ btVector3 targetVelocity(const btCollisionObject& object, const btVector3& place
   const btRigidBody* rigid = btRigidBody::upcast(&object);
   if (!rigid || object.isStaticObject()) return way * (kRestoring / dt);
   btVector3 velocity = rigid->getVelocityInLocalPoint(position - object.getWorldTransform().getOrigin());
-  // A kinematic body is at the end of its motion already.
   if (object.isKinematicObject()) {
-    way -= velocity * dt;
+    way -= lead(object, position, dt);
   } else if (object.isActive()) {
     velocity += rigid->getGravity() * rigid->getLinearFactor() * dt;
   }
@@ -104,7 +121,7 @@ void Cling::detach(WetCloth&) {
 }
 
 void Cling::apply(WetCloth& cloth, const Step& step) {
-  renew(cloth, knowsContacts(cloth, step));
+  renew(cloth, step, knowsContacts(cloth, step));
   if (m_bondCount == 0) return;
   WorldObjects objects(cloth.world().world());
   for (std::size_t i = 0; i < m_bonds.size(); ++i) {
@@ -112,7 +129,8 @@ void Cling::apply(WetCloth& cloth, const Step& step) {
     if (!bond.object) continue;
     ++m_nodesVisited;
     const bool isThere = objects.find(bond.object) && proxyNumberOf(*bond.object) == bond.proxy;
-    const bool holds = isThere && bond.object->hasContactResponse() && share(cloth.water().saturation(i)) > 0;
+    const bool sticks = isThere && bond.object->hasContactResponse() && share(cloth.water().saturation(i)) > 0;
+    const bool holds = sticks && (bond.isReported || isOn(cloth, step, i));
     if (holds && cloth.body().m_nodes[static_cast<int>(i)].m_im > 0) {
       hold(cloth, step, i);
     } else {
@@ -129,16 +147,36 @@ bool Cling::knowsContacts(const WetCloth& cloth, const Step& step) {
 }
 
 // Bullet's contacts of the last substep make bonds, and tell which of them are still pressed to the surface.
-void Cling::renew(WetCloth& cloth, bool knowsContacts) {
+void Cling::renew(WetCloth& cloth, const Step& step, bool knowsContacts) {
   if (m_bondCount > 0) {
     for (Bond& bond : m_bonds) bond.isReported = false;
   }
   if (!knowsContacts) return;
   RigidContacts(cloth.body(), cloth.world().world(), cloth.isInDeformableWorld())
-      .visit([&](const RigidContact& contact) { take(cloth, contact); });
+      .visit([&](const RigidContact& contact) { take(cloth, step, contact); });
 }
 
-void Cling::take(WetCloth& cloth, const RigidContact& contact) {
+// As it was a step ago: the shape, and the node's place but for what its velocity explains.
+bool Cling::isSteady(const WetCloth& cloth, const Step& step, std::size_t i) const {
+  const Bond& bond = m_bonds[i];
+  const btSoftBody::Node& node = cloth.body().m_nodes[static_cast<int>(i)];
+  const btScalar most = reachOf(cloth) + node.m_v.length() * static_cast<btScalar>(step.dt);
+  const btVector3 way = placeOn(*bond.object, node.m_x, step.dt) - bond.seen;
+  return hasShapeOf(bond) && way.length2() <= most * most;
+}
+
+// Asks the shape. Who was put elsewhere is held there, if at all.
+bool Cling::isOn(const WetCloth& cloth, const Step& step, std::size_t i) {
+  Bond& bond = m_bonds[i];
+  if (!isSteady(cloth, step, i)) {
+    bond.anchor = placeOn(*bond.object, cloth.body().m_nodes[static_cast<int>(i)].m_x, step.dt);
+    bond.seen = bond.anchor;
+    rememberShape(bond);
+  }
+  return isWithinReach(*bond.shape, bond.anchor, reachOf(cloth));
+}
+
+void Cling::take(WetCloth& cloth, const Step& step, const RigidContact& contact) {
   const int node = contact.point.nodes[0];
   const std::size_t i = static_cast<std::size_t>(node);
   if (contact.point.count != 1 || !(share(cloth.water().saturation(i)) > 0)) return;
@@ -149,10 +187,19 @@ void Cling::take(WetCloth& cloth, const RigidContact& contact) {
   Bond& bond = m_bonds[i];
   const int proxy = proxyNumberOf(object);
   const bool isSame = bond.object == contact.object && bond.proxy == proxy;
-  if (bond.object && !isSame) return;  // held by the first of two
+  if (bond.object && !isSame) return;                      // held by the first of two
+  if (bond.isReported && contact.gap >= bond.gap) return;  // the nearest of an object's parts tells the normal
+  // Contacts are those of the last substep: what neither changed nor was put elsewhere since is as Bullet says.
+  const btVector3 seen = placeOn(object, cloth.body().m_nodes[node].m_x, step.dt);
+  if (!bond.object && !isWithinReach(*object.getCollisionShape(), seen, reachOf(cloth))) return;
+  if (bond.object && !isSteady(cloth, step, i) && !isOn(cloth, step, i)) {
+    release(bond);
+    return;
+  }
   const btTransform& frame = object.getWorldTransform();
   const btVector3 position = frame.invXform(cloth.body().m_nodes[node].m_x);
   bond.normal = contact.normal * frame.getBasis();
+  bond.gap = contact.gap;
   bond.isReported = true;
   if (bond.object) {
     // How deep it is in the margin is Bullet's to decide.
@@ -161,7 +208,9 @@ void Cling::take(WetCloth& cloth, const RigidContact& contact) {
   }
   bond.object = contact.object;
   bond.proxy = proxy;
+  rememberShape(bond);
   bond.anchor = position;
+  bond.seen = seen;
   ++m_bondCount;
 }
 
@@ -196,11 +245,23 @@ void Cling::hold(WetCloth& cloth, const Step& step, std::size_t i) {
     const btVector3 way = frame.invXform(node.m_x) - bond.anchor;
     bond.anchor += way - bond.normal * bond.normal.dot(way);
   }
+  bond.seen = placeOn(*bond.object, node.m_x, step.dt);
   cloth.push(node, given.impulse * node.m_im);
   if (rigid) {
     rigid->activate();
     rigid->applyImpulse(-given.impulse, arm);
   }
+}
+
+// The shape that it had may have been deleted: only addresses are compared.
+bool Cling::hasShapeOf(const Bond& bond) {
+  const btCollisionShape* const shape = bond.object->getCollisionShape();
+  return shape == bond.shape && shape->getLocalScaling() == bond.scaling;
+}
+
+void Cling::rememberShape(Bond& bond) {
+  bond.shape = bond.object->getCollisionShape();
+  bond.scaling = bond.shape->getLocalScaling();
 }
 
 void Cling::release(Bond& bond) {
@@ -214,7 +275,7 @@ bool Cling::wakes(const WetCloth& cloth, const Step&) const {
   for (std::size_t i = 0; i < m_bonds.size(); ++i) {
     const Bond& bond = m_bonds[i];
     if (!bond.object) continue;
-    if (!objects.find(bond.object) || proxyNumberOf(*bond.object) != bond.proxy) return true;
+    if (!objects.find(bond.object) || proxyNumberOf(*bond.object) != bond.proxy || !hasShapeOf(bond)) return true;
     const btVector3 place = bond.object->getWorldTransform() * bond.anchor;
     if ((place - cloth.body().m_nodes[static_cast<int>(i)].m_x).length2() >
         kContactMotionTolerance * kContactMotionTolerance)
@@ -237,8 +298,9 @@ void Cling::transferBond(StateArchive& archive, Bond& bond) {
   bool holds = bond.object != nullptr;
   archive.value(holds);
   archive.object(bond.object);
-  archive.value(bond.proxy, bond.anchor, bond.normal, bond.isReported);
+  archive.value(bond.proxy, bond.scaling, bond.anchor, bond.seen, bond.normal, bond.isReported);
   if (archive.isRestoring() && holds && !bond.object) bond.object = &nowhere;
+  if (archive.isRestoring() && bond.object) bond.shape = bond.object->getCollisionShape();
 }
 
 }  // namespace WETCLOTH_PRECISION

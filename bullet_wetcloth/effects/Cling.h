@@ -37,6 +37,11 @@ WETCLOTH_EXPORT BondImpulse bondImpulse(const btVector3& needed, const btVector3
 /// acts on the rigid body, at the node's place. What the body bears otherwise (links, springs, wind) is felt through
 /// the velocities that it gave the node a step before.
 ///
+/// A bond ends, too, where the body's surface ends: when its place is past an edge, or the body got another shape or
+/// scale, or either was put elsewhere, or the body left the world. A place is on the body while it is nearer to its
+/// shape than one and a half times the cloth's collision margin (and 1 mm). A cloth that sleeps does not notice a
+/// change inside a compound or a mesh.
+///
 /// While Bullet still reports the contact, the weight alone decides whether the bond breaks: velocities away from the
 /// surface are then Bullet's own, getting the node out of the collision margin, and are held within the same limit.
 ///
@@ -88,17 +93,25 @@ class WETCLOTH_EXPORT Cling : public Effect {
 
  private:
   struct Bond {
-    btCollisionObject* object = nullptr;    // null: no bond
-    int proxy = 0;                          // of the broadphase, which tells it from one at the same address
+    btCollisionObject* object = nullptr;      // null: no bond
+    int proxy = 0;                            // of the broadphase, which tells it from one at the same address
+    const btCollisionShape* shape = nullptr;  // told by its address
+    btVector3 scaling = btVector3(0, 0, 0);
     btVector3 anchor = btVector3(0, 0, 0);  // where the node is held, in the object's frame
+    btVector3 seen = btVector3(0, 0, 0);    // where the node was a step ago, in the object's frame
     btVector3 normal = btVector3(0, 0, 0);  // in the object's frame
+    double gap = 0;                         // the smallest that Bullet reports [m]
     bool isReported = false;                // by Bullet, in the last substep
   };
 
   bool knowsContacts(const WetCloth& cloth, const Step& step);
-  void renew(WetCloth& cloth, bool knowsContacts);
-  void take(WetCloth& cloth, const RigidContact& contact);
+  void renew(WetCloth& cloth, const Step& step, bool knowsContacts);
+  void take(WetCloth& cloth, const Step& step, const RigidContact& contact);
+  bool isSteady(const WetCloth& cloth, const Step& step, std::size_t node) const;
+  bool isOn(const WetCloth& cloth, const Step& step, std::size_t node);
   void hold(WetCloth& cloth, const Step& step, std::size_t node);
+  static bool hasShapeOf(const Bond& bond);
+  static void rememberShape(Bond& bond);
   void release(Bond& bond);
   static void transferBond(StateArchive& archive, Bond& bond);
 

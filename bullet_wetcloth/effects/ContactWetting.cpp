@@ -132,13 +132,11 @@ void ContactWetting::attach(WetCloth& cloth) {
   m_hasNodeContacts = whyNoNodeContacts(cloth.body(), cloth.isInDeformableWorld()).empty();
   cloth.restMesh();
   m_contactsOfNode.resize(std::max(m_contactsOfNode.size(), cloth.water().size()));
+  m_contactsOfTriangle.resize(cloth.restMesh().triangles().size());
 }
 
 void ContactWetting::apply(WetCloth& cloth, const Step& step) {
-  if (!m_parameters.wetBodies.empty()) {
-    RigidContacts(cloth.body(), cloth.world().world(), cloth.isInDeformableWorld())
-        .visit([&](const RigidContact& contact) { takeFromFilm(cloth, step, contact); });
-  }
+  if (!m_parameters.wetBodies.empty()) takeFromFilms(cloth, step);
   if (!m_parameters.cloths) return;
   const btAlignedObjectArray<btSoftBody*>& bodies = cloth.world().softBodies();
   for (int i = 0; i < bodies.size(); ++i) {
@@ -149,18 +147,37 @@ void ContactWetting::apply(WetCloth& cloth, const Step& step) {
   }
 }
 
+// Contacts with bodies that have water. A cloth whose nodes and triangles both collide lists what touches twice.
+template <class Visit>
+void ContactWetting::visitFilms(WetCloth& cloth, Visit visitor) {
+  RigidContacts(cloth.body(), cloth.world().world(), cloth.isInDeformableWorld())
+      .visit([&](const RigidContact& contact) {
+        if (contact.face >= 0 && m_hasNodeContacts) return;
+        const double* const film = filmOn(contact.object);
+        if (film && *film > 0 && !isGone(cloth, contact)) visitor(contact);
+      });
+}
+
+int& ContactWetting::contactsWith(const RigidContact& contact) {
+  if (contact.face >= 0) return m_contactsOfTriangle[static_cast<std::size_t>(contact.face)];
+  return m_contactsOfNode[static_cast<std::size_t>(contact.point.nodes[0])];
+}
+
+void ContactWetting::takeFromFilms(WetCloth& cloth, const Step& step) {
+  visitFilms(cloth, [&](const RigidContact& contact) { contactsWith(contact) = 0; });
+  visitFilms(cloth, [&](const RigidContact& contact) { ++contactsWith(contact); });
+  visitFilms(cloth, [&](const RigidContact& contact) { takeFromFilm(cloth, step, contact); });
+}
+
 void ContactWetting::takeFromFilm(WetCloth& cloth, const Step& step, const RigidContact& contact) {
-  // A body whose nodes and triangles both collide lists what touches twice.
-  if (contact.point.count == 3 && m_hasNodeContacts) return;
   double* const film = filmOn(contact.object);
-  if (!film || !(*film > 0) || isGone(cloth, contact)) return;
   Water& water = cloth.water();
   for (int k = 0; k < contact.point.count; ++k) {
     const int node = contact.point.nodes[static_cast<std::size_t>(k)];
     const std::size_t i = static_cast<std::size_t>(node);
-    const double area = contact.point.count == 1
-                            ? contactArea(cloth.restMesh(), cloth.water(), cloth.fabric().arealDensity, i)
-                            : cloth.restMesh().triangles()[static_cast<std::size_t>(contact.face)].area;
+    const double whole = contact.face < 0 ? contactArea(cloth.restMesh(), cloth.water(), cloth.fabric().arealDensity, i)
+                                          : cloth.restMesh().triangles()[static_cast<std::size_t>(contact.face)].area;
+    const double area = whole / contactsWith(contact);
     const double conductance = m_parameters.rate * area * contact.point.weights[static_cast<std::size_t>(k)] * step.dt;
     const double uptake = filmUptake(water.held(i), water.capacity(i), conductance, *film);
     const double taken = fitting(water, i, uptake);

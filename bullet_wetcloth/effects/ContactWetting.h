@@ -32,10 +32,12 @@ WETCLOTH_EXPORT double equalisingFlow(double difference, double responseA, doubl
 
 /// Wets a cloth where it touches something wet: a rigid body with a film of water on it, or another WetCloth.
 ///
-/// Water goes by the difference of saturation: a film counts as 1. A node takes up through its own area. Where two
-/// cloths touch, Bullet lists contacts of the nodes of each with the triangles of the other, so each of these has half
-/// of its node's area, shared between the contacts that the node has. What one cloth gives is `dripped` in its ledger
-/// and `absorbed` in the other's; it brings the velocity of the node that it leaves, a film's that of its body.
+/// Water goes by the difference of saturation: a film counts as 1. A node takes up through its own area, which its
+/// contacts with wet bodies share: Bullet lists one for each part of a compound and each triangle of a mesh that is
+/// near. Where two cloths touch, Bullet lists contacts of the nodes of each with the triangles of the other, so each of
+/// these has half of its node's area, shared between the contacts that the node has. What one cloth gives is `dripped`
+/// in its ledger and `absorbed` in the other's; it brings the velocity of the node that it leaves, a film's that of its
+/// body.
 ///
 /// One of two cloths needs the effect. If both have it, the one that was added to the WetClothWorld first sees to the
 /// pair. Contacts are those of the last substep; of a sleeping cloth those of when it fell asleep, but for a rigid body
@@ -87,6 +89,10 @@ class WETCLOTH_EXPORT ContactWetting : public Effect {
  private:
   void requireContacts(const Parameters& parameters) const;
   double* filmOn(const btCollisionObject* body);
+  template <class Visit>
+  void visitFilms(WetCloth& cloth, Visit visitor);
+  int& contactsWith(const RigidContact& contact);
+  void takeFromFilms(WetCloth& cloth, const Step& step);
   void takeFromFilm(WetCloth& cloth, const Step& step, const RigidContact& contact);
   bool isSeenToBy(const WetCloth& cloth, const WetCloth& other) const;
   void exchange(WetCloth& nodesOf, WetCloth& facesOf, const Step& step);
@@ -98,6 +104,7 @@ class WETCLOTH_EXPORT ContactWetting : public Effect {
   std::string m_whyNoFaceContacts;
   bool m_hasNodeContacts = false;
   std::vector<int> m_contactsOfNode;
+  std::vector<int> m_contactsOfTriangle;
   long long m_nodesVisited = 0;
 };
 

@@ -3,7 +3,7 @@
 
 #include "bullet_wetcloth/bullet/Contacts.h"
 #include "bullet_wetcloth/bullet_wetcloth.h"
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/CallEffect.h"
 #include "tests/support/ClothScene.h"

@@ -2,7 +2,7 @@
 // The audit counts what passes through what: hand-made motions with passages that can be counted by hand, in each of
 // Bullet's worlds. Bodies without links move freely, so each node goes where its velocity takes it.
 
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"

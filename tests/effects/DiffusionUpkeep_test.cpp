@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // What Diffusion refuses, how much work it does, and a body that changes while it runs.
 
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"

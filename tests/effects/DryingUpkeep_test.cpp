@@ -3,7 +3,7 @@
 
 #include "bullet_wetcloth/effects/Drying.h"
 
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"

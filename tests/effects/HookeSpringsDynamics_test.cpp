@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Springs in motion: the force itself, conserved quantities, periods, stiff springs and long steps.
 
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"

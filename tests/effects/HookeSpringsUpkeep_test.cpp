@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // What the springs take from the body and give back, how often they factor their matrix, what they refuse.
 
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"

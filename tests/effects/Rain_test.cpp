@@ -2,7 +2,7 @@
 // How much rain a cloth catches, what of it goes in and what runs off.
 
 #include "bullet_wetcloth/effects/Rain.h"
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"

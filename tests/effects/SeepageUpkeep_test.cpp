@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Seepage: the momentum it carries in every world, what it refuses, how much work it does.
 
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"

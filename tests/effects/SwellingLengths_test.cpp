@@ -2,7 +2,7 @@
 // What Swelling writes into the links, and what it gives back.
 
 #include "bullet_wetcloth/effects/Swelling.h"
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"

@@ -2,7 +2,7 @@
 // A cloth that shrinks moves: in every world, with Bullet's links or springs and with HookeSprings.
 
 #include "bullet_wetcloth/effects/Swelling.h"
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"

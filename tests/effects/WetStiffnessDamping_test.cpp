@@ -2,7 +2,7 @@
 // Damping along links: exact for one link, never more energy, momentum and spin kept, in every world.
 
 #include "bullet_wetcloth/effects/WetStiffness.h"
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"

@@ -2,7 +2,7 @@
 // The formulas alone, and what the effect refuses.
 
 #include "bullet_wetcloth/effects/WetStiffness.h"
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/Patches.h"

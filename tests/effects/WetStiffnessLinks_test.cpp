@@ -2,7 +2,7 @@
 // Bullet's own links: what their constants become, what stays as it was, how much work it is, and what a factor means.
 
 #include "bullet_wetcloth/effects/WetStiffness.h"
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"

@@ -2,7 +2,7 @@
 // HookeSprings on a cloth whose links water softens: closed forms at rest, the order of adding, the factorisations.
 
 #include "bullet_wetcloth/effects/WetStiffness.h"
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Wind that varies in space and time, and what the effect refuses.
 
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/Patches.h"

@@ -2,7 +2,7 @@
 // Basori et al. 2017, claims S1 to S3 and S12: the patch, its springs, gravity, and the stretch of the wet cloth.
 
 #include "tests/paper/PaperCloth.h"
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/Patches.h"
 #include "tests/support/RigidBody.h"

@@ -3,7 +3,7 @@
 
 #include "bullet_wetcloth/effects/Diffusion.h"
 #include "bullet_wetcloth/effects/Seepage.h"
-#include "tests/support/Bodies.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 
