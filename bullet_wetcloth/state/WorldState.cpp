@@ -5,7 +5,9 @@
 #include "bullet_wetcloth/state/BulletClass.h"
 #include "bullet_wetcloth/state/CollisionObjectState.h"
 #include "bullet_wetcloth/state/DeformableSolverState.h"
+#include "bullet_wetcloth/state/DistanceCacheState.h"
 #include "bullet_wetcloth/state/RigidContactState.h"
+#include "bullet_wetcloth/state/TriangleCacheState.h"
 
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -93,6 +95,8 @@ void transferWorld(StateArchive& archive, btDiscreteDynamicsWorld& world, const 
   for (int i = 0; i < bodies.size(); ++i) transferSoftBody(archive, *bodies[i], bodies);
   if (isDeformable) transferDeformableSolver(archive, bodies);
   transferBroadphase(archive, world);
+  transferTriangleCaches(archive, world);
+  transferDistanceCaches(archive, world, bodies);
   transferRigidContacts(archive, world);
 }
 

@@ -15,7 +15,8 @@
 
 namespace fuzz {
 
-/// Nine nodes that hang over a sphere on which a dumbbell lies, with effects of every kind of state, after some steps.
+/// Nine nodes that hang over a plane and a sphere on which a dumbbell lies, with effects of every kind of state, after
+/// some steps.
 class SmallWorld {
  public:
   SmallWorld() {
@@ -27,6 +28,7 @@ class SmallWorld {
     }
     m_dumbbell.getWorldTransform().setOrigin(btVector3(btScalar(0.5), btScalar(0.14), btScalar(0.5)));
     m_world.addRigidBody(&m_dumbbell);
+    m_world.addRigidBody(&m_ground);
     wetcloth::ClothPatch patch;
     patch.columns = patch.rows = 3;
     patch.pinnedEdges = {wetcloth::ClothPatch::Edge::top};
@@ -49,6 +51,7 @@ class SmallWorld {
   ~SmallWorld() {
     m_wet.reset();
     m_world.removeSoftBody(m_body.get());
+    m_world.removeRigidBody(&m_ground);
     m_world.removeRigidBody(&m_dumbbell);
     m_world.removeRigidBody(&m_sphere);
   }
@@ -81,6 +84,8 @@ class SmallWorld {
   btSoftRigidDynamicsWorld m_world{&m_dispatcher, &m_broadphase, &m_solver, &m_configuration};
   btSphereShape m_shape{btScalar(0.3)};
   btRigidBody m_sphere{btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &m_shape)};
+  btStaticPlaneShape m_plane{btVector3(0, 1, 0), btScalar(-0.5)};
+  btRigidBody m_ground{btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &m_plane)};
   btSphereShape m_end{btScalar(0.05)};
   btCompoundShape m_dumbbellShape;
   btRigidBody m_dumbbell{btRigidBody::btRigidBodyConstructionInfo(
