@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/state/BroadphaseState.h"
 
+#include "bullet_wetcloth/state/BulletClass.h"
 #include "bullet_wetcloth/state/TreeState.h"
 
-#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 
 #include <cstddef>
@@ -123,11 +123,10 @@ std::vector<Pair> pairsOf(const btCollisionWorld& world) {
   return pairs;
 }
 
-// A cache that removes later sorts its pairs in each step.
 void setPairs(btCollisionWorld& world, const std::vector<Pair>& pairs) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   btOverlappingPairCache& cache = *world.getBroadphase()->getOverlappingPairCache();
-  if (cache.hasDeferredRemoval() || pairsOf(world) == pairs) return;
+  if (pairsOf(world) == pairs) return;
   while (cache.getNumOverlappingPairs() > 0) {
     const btBroadphasePair pair = cache.getOverlappingPairArrayPtr()[cache.getNumOverlappingPairs() - 1];
     cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, world.getDispatcher());
@@ -153,9 +152,13 @@ void transferPairs(StateArchive& archive, btCollisionWorld& world) {
 }  // namespace
 
 void transferBroadphase(StateArchive& archive, btCollisionWorld& world) {
-  auto* const broadphase = dynamic_cast<btDbvtBroadphase*>(world.getBroadphase());
-  archive.expect(broadphase != nullptr, "whether the broadphase is a btDbvtBroadphase");
-  if (broadphase) transferDynamicTrees(archive, *broadphase, world.getCollisionObjectArray());
+  btDbvtBroadphase* const broadphase = asDbvtBroadphase(world.getBroadphase());
+  if (!broadphase) archive.fail("the world's broadphase is not a btDbvtBroadphase; the state of others is not saved");
+  if (world.getPairCache()->hasDeferredRemoval()) {
+    archive.fail(
+        "the broadphase's pair cache removes pairs later (btSortedOverlappingPairCache): its order is not saved");
+  }
+  transferDynamicTrees(archive, *broadphase, world.getCollisionObjectArray());
   transferPairs(archive, world);
 }
 

@@ -9,7 +9,8 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 /// A world's broadphase: its two trees of boxes, which objects have moved lately, and the order of the overlapping
-/// pairs, in which contacts are found. Of a broadphase that is no btDbvtBroadphase only the order of the pairs.
+/// pairs, in which contacts are found. Throws StateError when it is no btDbvtBroadphase, or its cache of pairs is one
+/// that removes them later.
 void transferBroadphase(StateArchive& archive, btCollisionWorld& world);
 
 }  // namespace WETCLOTH_PRECISION

@@ -13,7 +13,8 @@
 
 namespace fuzz {
 
-/// Nine nodes that hang over a sphere on which a dumbbell lies, with effects of every kind of state, after some steps.
+/// Nine nodes that hang over a plane and a sphere on which a dumbbell lies, with effects of every kind of state, after
+/// some steps.
 class SmallWorld {
  public:
   SmallWorld() {
@@ -69,6 +70,9 @@ class SmallWorld {
   wetcloth_test::BodyScene m_scene{wetcloth_test::WorldKind::softRigid, patch()};
   wetcloth_test::RigidBody m_sphere{m_scene.bullet(), std::make_unique<btSphereShape>(btScalar(0.3)), 0,
                                     btVector3(btScalar(0.5), btScalar(-0.2), btScalar(0.5))};
+  wetcloth_test::RigidBody m_ground{m_scene.bullet(),
+                                    std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(-0.5)), 0,
+                                    btVector3(0, 0, 0)};
   btSphereShape m_end{btScalar(0.05)};  // of the dumbbell
   wetcloth_test::RigidBody m_dumbbell{m_scene.bullet(), dumbbell(), btScalar(0.1),
                                       btVector3(btScalar(0.5), btScalar(0.14), btScalar(0.5))};
