@@ -8,6 +8,7 @@
 #include "command/cost/CostReport.h"
 #include "command/cost/CostRun.h"
 #include "command/cost/CostScene.h"
+#include "command/scene/SceneOptions.h"
 #include "command/scene/SceneReader.h"
 
 #include <algorithm>
@@ -37,6 +38,7 @@ PrecisionWish precisionOf(const CostOptions& options) {
 
 Scene sceneOf(const CostOptions& options) {
   Scene scene = options.scene.empty() ? costScene() : readScene(options.scene);
+  tellHints(scene);
   // An effect acts once in each of Bullet's steps, however many of them the scene calls one.
   scene.step /= scene.substeps;
   scene.substeps = 1;

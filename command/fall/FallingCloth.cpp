@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "command/fall/FallingCloth.h"
 
+#include "command/scene/BlowUp.h"
+
 #include <utility>
 
 namespace command {
@@ -74,6 +76,10 @@ void FallingCloth::substep() {
   ++m_substeps;
   m_fallen = m_lifted - centreHeight(*m_body);
   for (; m_fallen - m_lifted > 1; ++m_lifted) liftByOneMetre(*m_body);
+}
+
+std::optional<std::string> FallingCloth::blowUp() const {
+  return findBlowUp(*m_body, {fallGravity * (time() + fallSubstep), fallSubstep});
 }
 
 }  // namespace command

@@ -4,6 +4,9 @@
 #include "command/fall/Fall.h"
 #include "command/scene/BulletWorld.h"
 
+#include <optional>
+#include <string>
+
 namespace command {
 
 /// A level cloth of 32 x 32 nodes that falls from rest.
@@ -17,6 +20,8 @@ class FallingCloth {
   double time() const { return static_cast<double>(m_substeps) * fallSubstep; }
   /// How far the centre of mass has fallen [m].
   double fallen() const { return m_fallen; }
+  /// "node 7 moves with ...", what of the cloth has blown up; none while it is sound.
+  std::optional<std::string> blowUp() const;
 
  private:
   BulletWorld m_world;

@@ -14,10 +14,17 @@ using Rgb = std::array<float, 3>;      ///< linear RGB, each in [0, 1]
 using Triangle = std::array<int, 3>;   ///< indices of vertices
 using Texture = std::array<float, 2>;  ///< place on the flat sheet [m]
 
+/// Texture coordinates that a mesh brought along, one for each corner, so that a seam may have two.
+struct TextureMap {
+  std::vector<Texture> places;      ///< as the mesh's file has them, without a unit
+  std::vector<Triangle> triangles;  ///< indices of places, one triangle for each of the cloth's
+};
+
 /// What of a cloth stays the same during a run.
 struct ClothShape {
   std::string name;
   std::vector<Texture> texture;           ///< one per node
+  std::optional<TextureMap> ownTexture;   ///< what other programs are given instead of `texture`, where there is one
   std::vector<Triangle> triangles;        ///< indices of nodes
   std::vector<std::array<int, 2>> links;  ///< indices of nodes
   std::vector<int> pinned;                ///< nodes

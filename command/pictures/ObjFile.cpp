@@ -7,6 +7,7 @@
 #include "command/pictures/StandingMesh.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 
 namespace pictures {
@@ -32,11 +33,12 @@ void writeCloth(const FrameSequence& sequence, std::size_t cloth, const std::str
   for (const Vector3& p : sequence.frames.front().cloths[cloth].positions) {
     out << "v " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
   }
-  for (const Texture& place : inUnitSquare(shape.texture)) out << "vt " << place[0] << ' ' << place[1] << '\n';
+  const TextureMap map = shape.ownTexture.value_or(TextureMap{inUnitSquare(shape.texture), shape.triangles});
+  for (const Texture& place : map.places) out << "vt " << place[0] << ' ' << place[1] << '\n';
   out << "s 1\n";
-  for (const Triangle& triangle : shape.triangles) {
+  for (std::size_t f = 0; f < shape.triangles.size(); ++f) {
     out << 'f';
-    for (const int node : triangle) out << ' ' << node + 1 << '/' << node + 1;
+    for (std::size_t k = 0; k < 3; ++k) out << ' ' << shape.triangles[f][k] + 1 << '/' << map.triangles[f][k] + 1;
     out << '\n';
   }
   file.close();

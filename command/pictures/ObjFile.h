@@ -7,8 +7,9 @@
 
 namespace pictures {
 
-/// Writes into a folder for each cloth CLOTH.obj, its mesh at the first frame with texture coordinates in [0, 1], and
-/// CLOTH.pc2, its vertices at every frame; and scenery.obj with what stands around, if anything does.
+/// Writes into a folder for each cloth CLOTH.obj, its mesh at the first frame with its own texture coordinates, or some
+/// in [0, 1] where it has none, and CLOTH.pc2, its vertices at every frame; and scenery.obj with what stands around, if
+/// anything does.
 /// Throws std::runtime_error that says why a file could not be written.
 void writeObjAndPointCaches(const FrameSequence& sequence, const std::string& folder);
 

@@ -132,8 +132,18 @@ class UsdWriter {
     sampledByVertex("float[] primvars:wetness", index, [](const ClothState& state) { return state.saturation; });
     sampledByVertex("color3f[] primvars:displayColor", index,
                     [&](const ClothState& state) { return coloursOf(shape, state); });
-    fixed("texCoord2f[] primvars:st", shape.texture, perVertex);
+    texture(shape);
     m_out << "    }\n";
+  }
+
+  void texture(const ClothShape& shape) {
+    if (!shape.ownTexture) {
+      fixed("texCoord2f[] primvars:st", shape.texture, perVertex);
+      return;
+    }
+    fixed("texCoord2f[] primvars:st", shape.ownTexture->places,
+          " (\n            interpolation = \"faceVarying\"\n        )");
+    fixed("int[] primvars:st:indices", cornersOf(shape.ownTexture->triangles));
   }
 
   void stands(const StandingMesh& mesh, const std::string& name) {

@@ -49,10 +49,17 @@ std::vector<pictures::Texture> textureOf(const TriangleMesh& mesh) {
   return texture;
 }
 
+std::optional<pictures::TextureMap> ownTextureOf(const ClothScene& scene) {
+  const auto* mesh = std::get_if<TriangleMesh>(&scene.shape);
+  if (mesh == nullptr || !mesh->hasTexture()) return std::nullopt;
+  return pictures::TextureMap{mesh->texture, mesh->textureTriangles};
+}
+
 ClothShape shapeOf(const ClothScene& scene, const btSoftBody& body) {
   ClothShape shape;
   shape.name = scene.name;
   shape.texture = std::visit([](const auto& form) { return textureOf(form); }, scene.shape);
+  shape.ownTexture = ownTextureOf(scene);
   shape.triangles = facesOf(body);
   const btSoftBody::Node* const first = &body.m_nodes[0];
   for (int i = 0; i < body.m_links.size(); ++i) {

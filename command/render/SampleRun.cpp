@@ -4,8 +4,8 @@
 #include "command/cli/Errors.h"
 #include "command/cli/Progress.h"
 #include "command/render/FrameSampler.h"
-#include "command/run/FiniteState.h"
 #include "command/run/RunSeries.h"
+#include "command/run/SoundState.h"
 #include "command/scene/SceneWorld.h"
 
 #include <algorithm>
@@ -148,7 +148,7 @@ pictures::FrameSequence sampleRun(const Scene& scene, const std::vector<double>&
   const int lastStep = std::min(steps, static_cast<int>(std::ceil(times.back() / scene.step - roundOff)));
   for (int step = 1; step <= lastStep; ++step) {
     world.step();
-    requireFinite(world, step);
+    requireSound(world, step);
     frames.offer(world, sampler, step);
     progress.update(static_cast<double>(step) / lastStep);
   }

@@ -7,9 +7,9 @@
 #include "command/cli/Progress.h"
 #include "command/run/Checkpoint.h"
 #include "command/run/DripRecord.h"
-#include "command/run/FiniteState.h"
 #include "command/run/FrameWriter.h"
 #include "command/run/RunReport.h"
+#include "command/run/SoundState.h"
 #include "command/scene/SceneOptions.h"
 #include "command/scene/SceneWorld.h"
 
@@ -58,9 +58,9 @@ class Run {
   void step() {
     m_wetSeconds += secondsOf(m_wet);
     ++m_steps;
-    requireFinite(m_wet, m_steps);
+    requireSound(m_wet, m_steps);
     m_drips.note(m_wet);
-    if (!m_plain.isFinite()) return;
+    if (m_plain.blowUp()) return;
     m_plainSeconds += secondsOf(m_plain);
     ++m_plainSteps;
   }

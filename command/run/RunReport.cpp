@@ -45,6 +45,9 @@ RunReport::RunReport(const SceneWorld& world, const RunTimes& times, const DripR
       m_saturation(saturationOf(world)) {
   for (const btSoftBody* body : world.bodies()) measureBody(*body);
   for (const wetcloth::WetCloth* cloth : world.cloths()) measureCloth(*cloth);
+  for (const auto& springs : world.springs()) {
+    if (springs) m_springs.push_back(springs->stiffness);
+  }
 }
 
 void RunReport::measureBody(const btSoftBody& body) {
@@ -114,6 +117,7 @@ nlohmann::ordered_json RunReport::json() const {
   }
   json["centre_of_mass"] = {m_moment[0] / m_mass, m_moment[1] / m_mass, m_moment[2] / m_mass};
   json["max_speed"] = m_maxSpeed;
+  if (!m_springs.empty()) json["springs_n_m"] = m_springs;
   json["max_stretch"] = m_maxStretch;
   json["state_hash"] = m_hash;
   return json;
@@ -145,6 +149,17 @@ std::string RunReport::steppingLine() const {
   return "measured error " + line + "\n";
 }
 
+std::string RunReport::springsLine() const {
+  if (m_springs.empty()) return "";
+  std::string line;
+  for (const double stiffness : m_springs) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%s%.3g N/m", line.empty() ? "" : ", ", stiffness);
+    line += text;
+  }
+  return "springs        " + line + " (spring_stiffness_n_m)\n";
+}
+
 std::string RunReport::auditLine() const {
   if (!m_audit) return "";
   char text[200];
@@ -174,7 +189,7 @@ std::string RunReport::summary() const {
       m_times.plainMilliseconds > 0 ? m_times.wetMilliseconds / m_times.plainMilliseconds : 0., waterLines().c_str(),
       "saturation", m_saturation.min, m_saturation.max, m_saturation.mean, "centre of mass", m_moment[0] / m_mass,
       m_moment[1] / m_mass, m_moment[2] / m_mass, "largest", m_maxSpeed, m_maxStretch, "state hash", m_hash.c_str());
-  return text + steppingLine() + auditLine();
+  return text + springsLine() + steppingLine() + auditLine();
 }
 
 }  // namespace command

@@ -38,6 +38,7 @@ class RunReport {
   std::string waterLines() const;
   std::string auditLine() const;
   std::string steppingLine() const;
+  std::string springsLine() const;
 
   const Scene& m_scene;
   RunTimes m_times;
@@ -54,6 +55,7 @@ class RunReport {
   double m_mass = 0;
   double m_maxSpeed = 0;
   double m_maxStretch = 0;
+  std::vector<double> m_springs;  // stiffness of Bullet's own, where cloths have them [N/m]
 };
 
 }  // namespace command

@@ -3,6 +3,8 @@
 
 #include "command/scene/EffectGroups.h"
 
+#include <cmath>
+
 namespace command {
 namespace {
 
@@ -34,6 +36,24 @@ std::string waterText(WaterRole role) {
   return "";
 }
 
+/// A key that ends with its unit tells that it is a speed.
+double speedsIn(const Json& value) {
+  if (!value.is_object()) return 0;
+  double sum = 0;
+  for (const auto& [key, part] : value.items()) {
+    const std::string unit = "_m_s";
+    const bool isSpeed = key.size() > unit.size() && key.compare(key.size() - unit.size(), unit.size(), unit) == 0;
+    if (!isSpeed) {
+      sum += speedsIn(part);
+    } else if (part.is_number()) {
+      sum += std::abs(part.get<double>());
+    } else {
+      for (const Json& coordinate : part) sum += coordinate.is_number() ? std::abs(coordinate.get<double>()) : 0;
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 const EffectCatalogue& effectCatalogue() {
@@ -58,7 +78,7 @@ std::vector<EffectScene> readEffects(JsonCursor cursor, const EffectContext& con
     if (!found) continue;
     found->expectObject(entry.keys);
     if (entry.needs.water && !context.scene.water) found->complain("the scene must say where its water is, /water");
-    effects.push_back({entry.key, entry.read(*found, context), entry.water});
+    effects.push_back({entry.key, entry.read(*found, context), entry.water, speedsIn(found->json())});
   }
   return effects;
 }

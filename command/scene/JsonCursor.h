@@ -47,6 +47,7 @@ class JsonCursor {
 
   const std::string& file() const { return m_file; }
   const std::string& pointer() const { return m_pointer; }
+  const Json& json() const { return *m_value; }
   bool isObject() const { return m_value->is_object(); }
   bool isArray() const { return m_value->is_array(); }
   bool isText() const { return m_value->is_string(); }

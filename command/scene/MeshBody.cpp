@@ -47,11 +47,15 @@ std::unique_ptr<btSoftBody> makeMeshBody(const TriangleMesh& mesh, double arealD
   for (const auto& [edge, nodes] : opposite) body->appendLink(edge.first, edge.second);
   std::set<std::pair<int, int>> bent;
   for (const auto& [edge, nodes] : opposite) {
-    if (nodes.size() != 2 || nodes[0] == nodes[1]) continue;
-    const std::pair<int, int> across = std::minmax(nodes[0], nodes[1]);
-    if (opposite.count(across) != 0 || !bent.insert(across).second) continue;  // there is a link already
-    body->appendLink(across.first, across.second, bending);
-    body->m_links[body->m_links.size() - 1].m_bbending = -1;  // a signed field of one bit
+    // Each face is bent against the next; where more than two meet, the last one against the first, too.
+    const std::size_t folds = nodes.size() == 2 ? 1 : nodes.size() < 2 ? 0 : nodes.size();
+    for (std::size_t k = 0; k < folds; ++k) {
+      const std::pair<int, int> across = std::minmax(nodes[k], nodes[(k + 1) % nodes.size()]);
+      if (across.first == across.second || opposite.count(across) != 0) continue;
+      if (!bent.insert(across).second) continue;  // there is a link already
+      body->appendLink(across.first, across.second, bending);
+      body->m_links[body->m_links.size() - 1].m_bbending = -1;  // a signed field of one bit
+    }
   }
   for (const auto& [a, b, c] : mesh.triangles) body->appendFace(a, b, c);
   btSoftBodyHelpers::ReoptimizeLinkOrder(body.get());  // halves Bullet's time per link

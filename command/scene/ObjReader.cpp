@@ -2,95 +2,183 @@
 #include "command/scene/ObjReader.h"
 
 #include "command/cli/TextFile.h"
+#include "command/scene/EarClipping.h"
+#include "command/scene/MendedMesh.h"
+#include "command/scene/ObjLines.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace command {
 namespace {
+
+constexpr std::size_t mostCorners = 4096;  // of a face
 
 [[noreturn]] void rejectLine(int line, const std::string& complaint) {
   throw std::invalid_argument("line " + std::to_string(line) + ": " + complaint);
 }
 
-btVector3 readVertex(std::istringstream& words, int line) {
-  double xyz[3];
+bool isAllowed(double coordinate) { return std::abs(coordinate) < 1e18; }
+
+Point readVertex(std::istringstream& words, int line) {
+  Point xyz;
   for (double& coordinate : xyz) {
     std::string word;
     words >> word;
     char* end = nullptr;
     coordinate = std::strtod(word.c_str(), &end);
-    if (word.empty() || *end != '\0' || !(std::abs(coordinate) < 1e18)) {
+    if (word.empty() || *end != '\0' || !isAllowed(coordinate)) {
       rejectLine(line, "vertex coordinate \"" + word + "\" must be a finite number below 1e18");
     }
   }
-  return btVector3(btScalar(xyz[0]), btScalar(xyz[1]), btScalar(xyz[2]));
+  return xyz;
 }
 
-/// "7", "7/1", "7//3" and "7/1/3" all mean vertex 7, counted from 1; "-1" means the last one so far.
-int readIndex(const std::string& word, std::size_t vertices, int line) {
+/// A place in the picture, of which the second number may be missing.
+std::array<float, 2> readTexture(std::istringstream& words) {
+  std::array<float, 2> place{0, 0};
+  for (float& coordinate : place) {
+    if (!(words >> coordinate) || !std::isfinite(coordinate)) coordinate = 0;
+  }
+  return place;
+}
+
+/// A corner as the file has it: numbers from 0, -1 for no texture coordinates.
+struct Corner {
+  int vertex;
+  int texture;
+};
+
+/// Numbers count from 1, or back from the last one: -1 is the last so far. Throws std::invalid_argument.
+int readNumber(const char* text, char** end, std::size_t count) {
+  const long number = std::strtol(text, end, 10);
+  const long fromOne = number < 0 ? static_cast<long>(count) + number + 1 : number;
+  const bool isThere = *end != text && fromOne >= 1 && fromOne <= static_cast<long>(count);
+  return isThere ? static_cast<int>(fromOne - 1) : -1;
+}
+
+/// "7", "7/1", "7//3" and "7/1/3" all mean vertex 7. Texture coordinates that are not there are none.
+Corner readCorner(const std::string& word, std::size_t vertices, std::size_t textures, int line) {
   char* end = nullptr;
-  const long count = static_cast<long>(vertices);
-  const long index = std::strtol(word.c_str(), &end, 10);
-  const bool isNumber = end != word.c_str() && (*end == '\0' || *end == '/');
-  const long fromOne = index < 0 ? count + index + 1 : index;
-  if (!isNumber || fromOne < 1 || fromOne > count) {
-    rejectLine(line, "face index \"" + word + "\" must be from 1 to " + std::to_string(count) +
+  Corner corner{readNumber(word.c_str(), &end, vertices), -1};
+  if (corner.vertex < 0 || (*end != '\0' && *end != '/')) {
+    rejectLine(line, "face index \"" + word + "\" must be from 1 to " + std::to_string(vertices) +
                          ", the number of vertices above it, or negative from the last");
   }
-  return static_cast<int>(fromOne - 1);
+  if (*end == '/') corner.texture = readNumber(end + 1, &end, textures);
+  return corner;
 }
 
-void readFace(std::istringstream& words, int line, TriangleMesh& mesh) {
-  std::vector<int> corners;
-  for (std::string word; words >> word;) corners.push_back(readIndex(word, mesh.vertices.size(), line));
-  if (corners.size() < 3) rejectLine(line, "a face must have at least 3 corners");
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    const std::array<int, 3> triangle{corners[0], corners[i - 1], corners[i]};
-    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[0] == triangle[2]) {
+/// What has been read so far.
+class ObjMesh {
+ public:
+  explicit ObjMesh(const Placement& placement) : m_placement(placement) {}
+
+  void take(const std::string& text, int line) {
+    std::istringstream words(text);
+    std::string keyword;
+    words >> keyword;
+    if (keyword == "v") m_places.push_back(m_placement(readVertex(words, line)));
+    if (keyword == "vt") m_mesh.texture.push_back(readTexture(words));
+    if (keyword == "f") takeFace(words, line);
+    if (keyword == "g") takeNames(words, m_groups);
+    if (keyword == "o") takeNames(words, m_objects);
+  }
+
+  TriangleMesh finish() {
+    if (m_places.empty()) throw std::invalid_argument("has no vertices, must have lines \"v x y z\"");
+    if (m_mesh.triangles.empty()) throw std::invalid_argument("has no faces, must have lines \"f i j k\"");
+    for (const Point& place : m_places) {
+      if (!std::all_of(place.begin(), place.end(), isAllowed)) {
+        throw std::invalid_argument("is too large when scaled: coordinates must be below 1e18 m");
+      }
+      m_mesh.vertices.emplace_back(btScalar(place[0]), btScalar(place[1]), btScalar(place[2]));
+    }
+    if (m_mesh.texture.empty()) m_mesh.textureTriangles.clear();
+    return std::move(m_mesh);
+  }
+
+ private:
+  static void takeNames(std::istringstream& words, std::vector<std::string>& names) {
+    names.clear();
+    for (std::string name; words >> name;) names.push_back(name);
+  }
+
+  std::vector<Corner> readCorners(std::istringstream& words, int line) const {
+    std::vector<Corner> corners;
+    for (std::string word; words >> word;) {
+      corners.push_back(readCorner(word, m_places.size(), m_mesh.texture.size(), line));
+    }
+    if (corners.size() < 3) rejectLine(line, "a face must have at least 3 corners");
+    if (corners.size() > mostCorners) {
+      rejectLine(line, "a face must have at most " + std::to_string(mostCorners) + " corners, has " +
+                           std::to_string(corners.size()));
+    }
+    std::vector<int> vertices;
+    for (const Corner& corner : corners) vertices.push_back(corner.vertex);
+    std::sort(vertices.begin(), vertices.end());
+    if (std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end()) {
       rejectLine(line, "a face must not have the same corner twice");
     }
-    mesh.triangles.push_back(triangle);
+    // A polygon that is not flat is cut the same way whichever of its corners comes first.
+    std::rotate(corners.begin(),
+                std::min_element(corners.begin(), corners.end(),
+                                 [](const Corner& a, const Corner& b) { return a.vertex < b.vertex; }),
+                corners.end());
+    return corners;
   }
-}
 
-/// A node without area around it would have no mass, and Bullet takes a node without mass for a pinned one.
-void requireAreaAtEveryVertex(const TriangleMesh& mesh) {
-  std::vector<double> area(mesh.vertices.size(), 0);
-  for (const auto& corners : mesh.triangles) {
-    const auto vertex = [&](int i) {
-      return mesh.vertices[static_cast<std::size_t>(corners[static_cast<std::size_t>(i)])];
-    };
-    const double doubled = (vertex(1) - vertex(0)).cross(vertex(2) - vertex(0)).length();
-    for (const int corner : corners) area[static_cast<std::size_t>(corner)] += doubled;
+  void takeFace(std::istringstream& words, int line) {
+    const std::vector<Corner> corners = readCorners(words, line);
+    std::vector<Point> places;
+    for (const Corner& corner : corners) places.push_back(m_places[static_cast<std::size_t>(corner.vertex)]);
+    for (const auto& [a, b, c] : clipEars(places)) {
+      const Corner &first = corners[static_cast<std::size_t>(a)], &second = corners[static_cast<std::size_t>(b)],
+                   &third = corners[static_cast<std::size_t>(c)];
+      m_mesh.triangles.push_back({first.vertex, second.vertex, third.vertex});
+      m_mesh.textureTriangles.push_back({first.texture, second.texture, third.texture});
+    }
+    for (const auto* names : {&m_groups, &m_objects}) {
+      for (const std::string& name : *names) {
+        for (const Corner& corner : corners) m_mesh.groups[name].push_back(corner.vertex);
+      }
+    }
   }
-  for (std::size_t i = 0; i < area.size(); ++i) {
-    if (area[i] > 0) continue;
-    throw std::invalid_argument("vertex " + std::to_string(i + 1) +
-                                " must be a corner of a face that has an area; remove it or its face");
-  }
-}
+
+  const Placement& m_placement;
+  std::vector<Point> m_places;
+  std::vector<std::string> m_groups;
+  std::vector<std::string> m_objects;
+  TriangleMesh m_mesh;
+};
 
 }  // namespace
 
-TriangleMesh readObj(const std::string& file) {
-  std::istringstream text(readTextFile(file));
-  TriangleMesh mesh;
-  std::string lineText;
-  for (int line = 1; std::getline(text, lineText); ++line) {
-    std::istringstream words(lineText.substr(0, lineText.find('#')));
-    std::string keyword;
-    words >> keyword;
-    if (keyword == "v") mesh.vertices.push_back(readVertex(words, line));
-    if (keyword == "f") readFace(words, line, mesh);
+std::array<double, 3> Placement::operator()(std::array<double, 3> place) const {
+  for (double& coordinate : place) coordinate *= scale;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (rotation[axis] == 0) continue;
+    const double angle = rotation[axis] * std::acos(-1.0) / 180;
+    double& u = place[(axis + 1) % 3];
+    double& v = place[(axis + 2) % 3];
+    const double before = u;
+    u = std::cos(angle) * before - std::sin(angle) * v;
+    v = std::sin(angle) * before + std::cos(angle) * v;
   }
-  if (mesh.vertices.empty()) throw std::invalid_argument("has no vertices, must have lines \"v x y z\"");
-  if (mesh.triangles.empty()) throw std::invalid_argument("has no faces, must have lines \"f i j k\"");
-  requireAreaAtEveryVertex(mesh);
-  return mesh;
+  for (std::size_t axis = 0; axis < 3; ++axis) place[axis] += translation[axis];
+  return place;
+}
+
+TriangleMesh readObj(const std::string& file, const Placement& placement) {
+  const std::string text = readTextFile(file);
+  ObjMesh mesh(placement);
+  for (ObjLines lines(text); lines.next();) mesh.take(lines.text(), lines.number());
+  return mended(mesh.finish());
 }
 
 }  // namespace command

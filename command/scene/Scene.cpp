@@ -2,6 +2,8 @@
 #include "command/scene/Scene.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 namespace command {
 
@@ -21,10 +23,40 @@ int ClothScene::nodeCount() const {
   return static_cast<int>(std::get<TriangleMesh>(shape).vertices.size());
 }
 
+std::vector<btVector3> ClothScene::nodePositions() const {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) return mesh->vertices;
+  const auto& patch = std::get<wetcloth::ClothPatch>(shape);
+  std::vector<btVector3> positions;
+  for (int j = 0; j < patch.rows; ++j) {
+    for (int i = 0; i < patch.columns; ++i) {
+      positions.push_back(patch.origin + patch.edgeU * btScalar(i) / btScalar(patch.columns - 1) +
+                          patch.edgeV * btScalar(j) / btScalar(patch.rows - 1));
+    }
+  }
+  return positions;
+}
+
 bool ClothScene::hasPins() const {
   const auto* patch = std::get_if<wetcloth::ClothPatch>(&shape);
   if (patch == nullptr) return !pinnedNodes.empty();
   return !(patch->pinnedCorners.empty() && patch->pinnedEdges.empty() && patch->pinnedNodes.empty());
+}
+
+double ClothScene::fastestPush() const {
+  double speed = 10;  // of what has no speed of its own in the scene, such as rain
+  for (const EffectScene& effect : effects) speed += effect.speed;
+  if (motion) {
+    for (std::size_t i = 1; i < motion->times.size(); ++i) {
+      const double way = static_cast<double>((motion->offsets[i] - motion->offsets[i - 1]).length());
+      speed = std::max(speed, way / (motion->times[i] - motion->times[i - 1]));
+    }
+  }
+  if (twist) {
+    const auto& patch = std::get<wetcloth::ClothPatch>(shape);
+    const double reach = static_cast<double>(patch.edgeU.length() + patch.edgeV.length());
+    speed += 2 * SIMD_PI * std::abs(twist->turnsPerSecond) * reach;
+  }
+  return speed;
 }
 
 btVector3 Scene::up() const { return gravity.length() > 0 ? btVector3(-gravity.normalized()) : btVector3(0, 1, 0); }

@@ -3,6 +3,7 @@
 
 #include "command/cli/NamedValues.h"
 #include "command/cli/Precision.h"
+#include "command/scene/TriangleMesh.h"
 
 #include "bullet_wetcloth/bullet_wetcloth.h"
 
@@ -19,16 +20,18 @@ enum class WorldKind { softRigid, softMultiBody, deformable };
 const NamedValues<WorldKind>& worldNames();
 std::string nameOf(WorldKind world);
 
-struct TriangleMesh {
-  std::vector<btVector3> vertices;  ///< [m]
-  std::vector<std::array<int, 3>> triangles;
-};
-
 /// Springs of Bullet's deformable world, btDeformableMassSpringForce; its other worlds do not read them.
 struct DeformableSprings {
   double stiffness = 100;       ///< [N/m]
   double bendingStiffness = 1;  ///< [N/m]
   double damping = 0.01;        ///< [N s/m]
+};
+
+/// What a scene says of them; what it does not say is chosen to be stable (springsOf()).
+struct SpringScene {
+  std::optional<double> stiffness;         ///< [N/m]
+  std::optional<double> bendingStiffness;  ///< [N/m]
+  double damping = 0.01;                   ///< [N s/m]
 };
 
 /// An edge of a patch, pinned, that turns about the line through its middle and that of the opposite edge.
@@ -58,6 +61,7 @@ struct EffectScene {
   std::string key;  ///< as the scene spells it
   AddEffect addTo;
   WaterRole water = WaterRole::none;
+  double speed = 0;  ///< of the air and water that its parameters name, all together [m/s]
 };
 
 struct ClothScene {
@@ -74,12 +78,15 @@ struct ClothScene {
   int clusters = 0;               ///< btSoftBody::generateClusters(); 0: none
   std::optional<TwistScene> twist;
   std::optional<MotionScene> motion;
-  DeformableSprings springs;
+  SpringScene springs;
   std::vector<EffectScene> effects;  ///< in the order in which they are added
 
   bool hasEffect(const std::string& key) const;
   int nodeCount() const;
+  std::vector<btVector3> nodePositions() const;  ///< at the beginning [m]
   bool hasPins() const;
+  /// No less than the speed of anything that moves the cloth, but for its weight [m/s].
+  double fastestPush() const;
 };
 
 struct Plane {
@@ -108,6 +115,8 @@ struct CameraScene {
   double fieldOfView = 30;                              ///< vertical [degrees]
 };
 
+constexpr double mostSteps = 2e9;  ///< of a run
+
 struct Scene {
   std::string file;
   std::string name;
@@ -124,6 +133,7 @@ struct Scene {
   std::vector<Collider> colliders;
   std::optional<WaterScene> water;
   CameraScene camera;
+  std::vector<std::string> hints;  ///< what is allowed and rarely meant, one line each
 
   /// Against gravity, of length 1; y without gravity.
   btVector3 up() const;

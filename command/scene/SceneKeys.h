@@ -33,7 +33,9 @@ inline const KeyTable fabric{
     "fabric",
     {"preset", "name", "capacity_kg_per_kg", "time_constant_s", "areal_density_kg_m2", "colour", "roughness"}};
 
-inline const KeyTable pins{"pins", {"corners", "edges", "nodes"}};
+inline const KeyTable obj{"obj", {"file", "scale", "rotation_deg", "translation_m"}};
+
+inline const KeyTable pins{"pins", {"corners", "edges", "nodes", "box", "sphere", "group"}};
 
 inline const KeyTable twist{"twist", {"edge", "turns_per_s", "turns"}};
 
@@ -56,9 +58,9 @@ inline const KeyTable sphere{"sphere", {"centre_m", "radius_m"}};
 inline const KeyTable camera{"camera", {"direction", "field_of_view_deg"}};
 
 /// But for those of effects, which stand in the catalogue.
-inline const std::vector<const KeyTable*> all{&scene,         &cloth, &patch, &fabric, &pins,
-                                              &exposureBelow, &gust,  &twist, &motion, &water,
-                                              &collider,      &plane, &box,   &sphere, &camera};
+inline const std::vector<const KeyTable*> all{&scene,         &obj,  &cloth,  &patch,  &fabric, &pins,
+                                              &exposureBelow, &gust, &twist,  &motion, &water,  &collider,
+                                              &plane,         &box,  &sphere, &camera};
 
 }  // namespace keys
 }  // namespace command

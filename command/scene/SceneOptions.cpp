@@ -11,11 +11,12 @@
 namespace command {
 namespace {
 
-void requireDuration(double duration) {
-  if (duration > 0 && duration <= 3600) return;
-  char value[32];
-  std::snprintf(value, sizeof value, "%g", duration);
-  throw InputError("wetcloth: --duration = " + std::string(value) + ": must be in (0, 3600] s");
+void requireDuration(double duration, double step) {
+  if (duration > 0 && duration / step <= mostSteps) return;
+  char text[120];
+  std::snprintf(text, sizeof text, "wetcloth: --duration = %g: must be > 0 and at most %g s, 2e9 steps", duration,
+                mostSteps * step);
+  throw InputError(text);
 }
 
 /// Throws InputError when nothing that was measured is within the budget.
@@ -64,9 +65,14 @@ PrecisionWish wishOf(const SceneOptions& options) {
   return options.precision.empty() ? readPrecision(options.scene) : wishOf(options.precision);
 }
 
+void tellHints(const Scene& scene) {
+  for (const std::string& hint : scene.hints) std::fprintf(stderr, "%s\n", hint.c_str());
+}
+
 PreparedScene prepareScene(const SceneOptions& options) {
-  if (options.duration) requireDuration(*options.duration);
   Scene scene = readScene(options.scene);
+  if (options.duration) requireDuration(*options.duration, scene.step);
+  tellHints(scene);
   if (options.duration) scene.duration = *options.duration;
   if (!options.quality.empty()) scene.quality = options.quality;
   std::optional<SteppingChoice> stepping = chooseStepping(options, scene);

@@ -38,6 +38,9 @@ struct PreparedScene {
   std::optional<SteppingChoice> stepping;  ///< none: the scene's own substeps and iterations
 };
 
+/// What is allowed in the scene and hardly ever meant: one line each on standard error.
+void tellHints(const Scene& scene);
+
 /// Reads the scene and applies the options. Throws InputError when the scene, its duration or the error budget is not
 /// allowed.
 PreparedScene prepareScene(const SceneOptions& options);

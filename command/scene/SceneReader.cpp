@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -42,13 +44,28 @@ ClothPatch readPatch(JsonCursor cursor) {
   return patch;
 }
 
-TriangleMesh readMesh(const JsonCursor& cursor) {
-  const std::string name = cursor.text();
+Placement readPlacement(const JsonCursor& cursor) {
+  Placement placement;
+  readNumber(cursor, "scale", Range::positive(), placement.scale);
+  if (const auto rotation = cursor.find("rotation_deg")) placement.rotation = rotation->triple();
+  if (const auto translation = cursor.find("translation_m")) placement.translation = translation->triple();
+  return placement;
+}
+
+TriangleMesh readMeshFile(const JsonCursor& name, const Placement& placement) {
   try {
-    return readObj((std::filesystem::path(cursor.file()).parent_path() / name).string());
+    return readObj((std::filesystem::path(name.file()).parent_path() / name.text()).string(), placement);
   } catch (const std::invalid_argument& error) {
-    cursor.complain(error.what());
+    name.complain(error.what());
   }
+}
+
+/// The name of a file, or where its mesh is put, too.
+TriangleMesh readMesh(JsonCursor cursor) {
+  if (cursor.isText()) return readMeshFile(cursor, {});
+  if (!cursor.isObject()) cursor.reject("the name of a file, or an object with a \"file\"");
+  cursor.expectObject(keys::obj);
+  return readMeshFile(cursor.at("file"), readPlacement(cursor));
 }
 
 wetcloth::Fabric readPreset(const JsonCursor& cursor) {
@@ -106,30 +123,78 @@ void readPatchPins(const JsonCursor& cursor, ClothPatch& patch) {
   if (const auto list = cursor.find("nodes")) patch.pinnedNodes = readNodes(*list, patch.nodeCount());
 }
 
-void readPins(JsonCursor cursor, ClothScene& cloth) {
-  cursor.expectObject(keys::pins);
-  if (auto* patch = std::get_if<ClothPatch>(&cloth.shape)) {
-    readPatchPins(cursor, *patch);
-    return;
-  }
+/// Nodes of a mesh are told by the file's vertices, by its groups, or by where they are.
+void readMeshPins(const JsonCursor& cursor, const TriangleMesh& mesh, std::vector<int>& pinned) {
   for (const char* key : {"corners", "edges"}) {
-    if (const auto found = cursor.find(key)) found->complain("an OBJ has no corners or edges, pin its \"nodes\"");
+    if (const auto found = cursor.find(key)) {
+      found->complain("an OBJ has no corners or edges, pin its \"nodes\", a \"group\", or what is in a \"box\"");
+    }
   }
-  const auto& mesh = std::get<TriangleMesh>(cloth.shape);
   if (const auto list = cursor.find("nodes")) {
-    cloth.pinnedNodes = readNodes(*list, static_cast<int>(mesh.vertices.size()));
+    for (const int vertex : readNodes(*list, static_cast<int>(mesh.nodeOfVertex.size()))) {
+      pinned.push_back(mesh.nodeOfVertex[static_cast<std::size_t>(vertex)]);
+    }
+  }
+  if (const auto name = cursor.find("group")) {
+    if (mesh.groups.empty()) name->complain("the OBJ has no groups, lines \"g name\" or \"o name\" above faces");
+    std::vector<std::pair<std::string, std::vector<int>>> groups(mesh.groups.begin(), mesh.groups.end());
+    const std::vector<int> nodes = name->choice(groups);
+    pinned.insert(pinned.end(), nodes.begin(), nodes.end());
   }
 }
 
-void readSprings(const JsonCursor& cursor, WorldKind world, DeformableSprings& springs) {
+template <class Holds>
+void pinWhatIsIn(const JsonCursor& region, const ClothScene& cloth, std::vector<int>& pinned, Holds holds) {
+  const std::vector<btVector3> positions = cloth.nodePositions();
+  const std::size_t before = pinned.size();
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (holds(positions[i])) pinned.push_back(static_cast<int>(i));
+  }
+  if (pinned.size() == before) region.complain("pins nothing: no node of the cloth begins in it");
+}
+
+Box readBox(JsonCursor cursor);
+Sphere readSphere(JsonCursor cursor);
+
+void readRegionPins(const JsonCursor& cursor, const ClothScene& cloth, std::vector<int>& pinned) {
+  if (const auto region = cursor.find("box")) {
+    const Box box = readBox(*region);
+    pinWhatIsIn(*region, cloth, pinned, [&](const btVector3& place) {
+      const btVector3 inside = box.halfExtents - (place - box.centre).absolute();
+      return inside[inside.minAxis()] >= 0;
+    });
+  }
+  if (const auto region = cursor.find("sphere")) {
+    const Sphere sphere = readSphere(*region);
+    pinWhatIsIn(*region, cloth, pinned, [&](const btVector3& place) {
+      return static_cast<double>((place - sphere.centre).length()) <= sphere.radius;
+    });
+  }
+}
+
+void readPins(JsonCursor cursor, ClothScene& cloth) {
+  cursor.expectObject(keys::pins);
+  if (auto* patch = std::get_if<ClothPatch>(&cloth.shape)) {
+    if (const auto group = cursor.find("group")) group->complain("a patch has no groups, an OBJ does");
+    readPatchPins(cursor, *patch);
+    readRegionPins(cursor, cloth, patch->pinnedNodes);
+  } else {
+    readMeshPins(cursor, std::get<TriangleMesh>(cloth.shape), cloth.pinnedNodes);
+    readRegionPins(cursor, cloth, cloth.pinnedNodes);
+  }
+}
+
+void readSprings(const JsonCursor& cursor, WorldKind world, SpringScene& springs) {
   for (const char* key : {"spring_stiffness_n_m", "bending_stiffness_n_m", "spring_damping_n_s_m"}) {
     const auto found = cursor.find(key);
     if (found && world != WorldKind::deformable) {
       found->complain("only the world \"deformable\" reads it; elsewhere use the effect hooke_springs");
     }
   }
-  readNumber(cursor, "spring_stiffness_n_m", Range::positive(), springs.stiffness);
-  readNumber(cursor, "bending_stiffness_n_m", Range::notNegative(), springs.bendingStiffness);
+  if (const auto found = cursor.find("spring_stiffness_n_m")) springs.stiffness = found->number(Range::positive());
+  if (const auto found = cursor.find("bending_stiffness_n_m")) {
+    springs.bendingStiffness = found->number(Range::notNegative());
+  }
   readNumber(cursor, "spring_damping_n_s_m", Range::notNegative(), springs.damping);
 }
 
@@ -193,7 +258,39 @@ MotionScene readMotion(JsonCursor cursor, const ClothScene& cloth) {
   return motion;
 }
 
-ClothScene readCloth(JsonCursor cursor, const Scene& scene, const EffectCatalogue& catalogue) {
+/// Diagonal of the box round it [m].
+double sizeOf(const ClothScene& cloth) {
+  const std::vector<btVector3> positions = cloth.nodePositions();
+  btVector3 low = positions.front();
+  btVector3 high = low;
+  for (const btVector3& position : positions) {
+    low.setMin(position);
+    high.setMax(position);
+  }
+  return static_cast<double>((high - low).length());
+}
+
+/// What is allowed and hardly ever meant.
+void hintAt(const JsonCursor& shape, const ClothScene& cloth, std::vector<std::string>& hints) {
+  constexpr double large = 20, small = 0.01;  // [m]
+  const std::string place = onOneLine(shape.file() + ": " + shape.pointer()) + ": ";
+  const auto* mesh = std::get_if<TriangleMesh>(&cloth.shape);
+  if (mesh != nullptr && !mesh->remarks.empty()) {
+    std::string text;
+    for (const std::string& remark : mesh->remarks) text += (text.empty() ? "" : "; ") + remark;
+    hints.push_back(place + text);
+  }
+  const double size = sizeOf(cloth);
+  if (size >= small && size <= large) return;
+  char text[160];
+  std::snprintf(text, sizeof text, "the cloth is %.3g m across: are its lengths metres?%s", size,
+                mesh == nullptr ? ""
+                : size > large  ? " \"obj\": {\"file\": ..., \"scale\": 0.001} takes millimetres"
+                                : " \"obj\": {\"file\": ..., \"scale\": 1000} makes it larger");
+  hints.push_back(place + text);
+}
+
+ClothScene readCloth(JsonCursor cursor, Scene& scene, const EffectCatalogue& catalogue) {
   cursor.expectObject(keys::cloth);
   ClothScene cloth;
   if (const auto name = cursor.find("name")) cloth.name = name->text();
@@ -202,6 +299,7 @@ ClothScene readCloth(JsonCursor cursor, const Scene& scene, const EffectCatalogu
   } else {
     cloth.shape = readMesh(cursor.at("obj"));
   }
+  hintAt(cursor.at(std::holds_alternative<ClothPatch>(cloth.shape) ? "patch" : "obj"), cloth, scene.hints);
   cloth.fabric = readFabric(cursor.at("fabric"));
   if (auto* patch = std::get_if<ClothPatch>(&cloth.shape)) patch->arealDensity = cloth.fabric.arealDensity;
   if (const auto pins = cursor.find("pins")) readPins(*pins, cloth);
@@ -275,7 +373,11 @@ void readWorld(const JsonCursor& cursor, Scene& scene) {
     quality->choice(qualityNames());
     scene.quality = quality->text();
   }
-  readNumber(cursor, "duration_s", Range{0, 3600, false, "in (0, 3600]"}, scene.duration);
+  readNumber(cursor, "duration_s", Range::positive(), scene.duration);
+  if (scene.duration / scene.step > mostSteps) {
+    const auto duration = cursor.find("duration_s");
+    (duration ? *duration : cursor.at("step_s")).complain("makes more than 2e9 steps of step_s, the most that are run");
+  }
   if (const auto implicit = cursor.find("implicit")) {
     scene.implicit = implicit->boolean();
     if (scene.implicit && scene.world != WorldKind::deformable) {

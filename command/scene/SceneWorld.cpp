@@ -2,7 +2,9 @@
 #include "command/scene/SceneWorld.h"
 
 #include "command/cli/Errors.h"
+#include "command/scene/BlowUp.h"
 #include "command/scene/MeshBody.h"
+#include "command/scene/StableSprings.h"
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
@@ -66,12 +68,26 @@ void SceneWorld::addCloth(const ClothScene& cloth) {
   body->getCollisionShape()->setMargin(btScalar(cloth.margin));
   if (cloth.clusters > 0) body->generateClusters(cloth.clusters);
   body->setSelfCollision(cloth.selfCollision);
-  const bool bulletPulls = !cloth.hasEffect("hooke_springs");
-  btSoftBody& added = m_world.add(std::move(body), bulletPulls ? &cloth.springs : nullptr);
+  const bool bulletPulls = m_scene.world == WorldKind::deformable && !cloth.hasEffect("hooke_springs");
+  m_springs.emplace_back();
+  if (bulletPulls) m_springs.back() = springsOf(cloth.springs, *body, substep(), m_scene.implicit);
+  btSoftBody& added = m_world.add(std::move(body), bulletPulls ? &*m_springs.back() : nullptr);
   if (cloth.collisions) added.m_cfg.collisions = *cloth.collisions;
+  addFaceTree(added);
   if (cloth.twist) m_twists.emplace_back(added, std::get<wetcloth::ClothPatch>(cloth.shape), *cloth.twist);
   if (cloth.motion) m_motions.emplace_back(added, *cloth.motion);
   m_bodies.push_back(&added);
+}
+
+/// Bullet makes the tree by itself, but never ends for cloth in several parts, and takes minutes for a large one.
+void SceneWorld::addFaceTree(btSoftBody& body) const {
+  constexpr int mostForBullet = 40000;  // faces: a second or two
+  using Flag = btSoftBody::fCollision;
+  const int flag = m_scene.world == WorldKind::deformable ? Flag::SDF_RD : Flag::VF_SS;
+  if ((body.m_cfg.collisions & flag) == 0) return;
+  if (body.m_faces.size() > mostForBullet || !wetcloth::checkMesh(body).bulletBuildsFaceTree()) {
+    wetcloth::buildFaceTree(body);
+  }
 }
 
 void SceneWorld::addWater(const WaterScene& water) {
@@ -111,7 +127,7 @@ void SceneWorld::addCollider(const Collider& collider) {
 }
 
 void SceneWorld::step(const BeforeSubstep& before) {
-  const btScalar dt = btScalar(m_scene.step / m_scene.substeps);
+  const btScalar dt = btScalar(substep());
   for (int i = 1; i <= m_scene.substeps; ++i) {
     const double time = (m_steps * m_scene.substeps + i) * m_scene.step / m_scene.substeps;
     for (Twist& twist : m_twists) twist.moveTo(time);
@@ -153,6 +169,32 @@ void SceneWorld::restore(std::istream& stream, int steps) {
 
 void SceneWorld::finish() {
   for (wetcloth::CollisionAudit* audit : m_audits) audit->look();
+}
+
+/// Of springs that bear all the cloth with its water; links of Bullet's position solver do not give way.
+double SceneWorld::sagOf(std::size_t cloth) const {
+  double stiffness = m_springs[cloth] ? m_springs[cloth]->stiffness : 0;
+  if (cloth < m_cloths.size()) {
+    m_cloths[cloth]->forEach<wetcloth::HookeSprings>(
+        [&](const wetcloth::HookeSprings& springs) { stiffness = springs.parameters().stiffness; });
+  }
+  if (!(stiffness > 0)) return 0;
+  double mass = 0;
+  for (int i = 0; i < m_bodies[cloth]->m_nodes.size(); ++i) {
+    const double inverse = static_cast<double>(m_bodies[cloth]->m_nodes[i].m_im);
+    if (inverse > 0) mass += 1 / inverse;
+  }
+  return mass * static_cast<double>(m_scene.gravity.length()) / stiffness;
+}
+
+std::optional<std::string> SceneWorld::blowUp() const {
+  const double gravity = static_cast<double>(m_scene.gravity.length());
+  for (std::size_t i = 0; i < m_bodies.size(); ++i) {
+    const double speed = m_scene.cloths[i].fastestPush() + gravity * (time() + substep());
+    const auto found = findBlowUp(*m_bodies[i], {speed, substep(), sagOf(i)});
+    if (found) return "/cloths/" + std::to_string(i) + ": " + *found;
+  }
+  return std::nullopt;
 }
 
 bool SceneWorld::isFinite() const {

@@ -10,6 +10,8 @@
 #include <functional>
 #include <iosfwd>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace command {
@@ -50,11 +52,18 @@ class SceneWorld {
   const FallingDrops& drops() const { return m_drops; }
   const std::vector<wetcloth::CollisionAudit*>& audits() const { return m_audits; }
   const Colliders& colliders() const { return m_colliders; }
+  /// Bullet's own springs of each cloth; none but in the deformable world without `hooke_springs`.
+  const std::vector<std::optional<DeformableSprings>>& springs() const { return m_springs; }
   /// Whether all positions and velocities are finite.
   bool isFinite() const;
+  /// "/cloths/0: node 7 moves with ...": what of the cloths has blown up; none while all are sound.
+  std::optional<std::string> blowUp() const;
 
  private:
   void addCloth(const ClothScene& cloth);
+  void addFaceTree(btSoftBody& body) const;
+  double substep() const { return m_scene.step / m_scene.substeps; }
+  double sagOf(std::size_t cloth) const;
   void addEffects(std::size_t index, wetcloth::WetCloth& wet);
   void addWater(const WaterScene& water);
   void addCollider(const Collider& collider);
@@ -64,6 +73,7 @@ class SceneWorld {
   BulletWorld m_world;
   wetcloth::WetClothWorld* m_wetWorld = nullptr;  // null in plain Bullet
   std::vector<btSoftBody*> m_bodies;
+  std::vector<std::optional<DeformableSprings>> m_springs;
   std::vector<wetcloth::WetCloth*> m_cloths;
   std::vector<wetcloth::CollisionAudit*> m_audits;
   Colliders m_colliders;

@@ -2,6 +2,7 @@
 #include "command/scene/ValidateCommand.h"
 
 #include "command/cli/CommonOptions.h"
+#include "command/scene/SceneOptions.h"
 #include "command/scene/SceneReader.h"
 #include "command/scene/SceneWorld.h"
 
@@ -24,6 +25,7 @@ void validateScenes(const std::vector<std::string>& files) {
     }
     const Scene scene = readScene(file);
     const SceneWorld world(scene);  // what only the library knows to refuse, it refuses here
+    tellHints(scene);
     std::printf("%s: ok\n", file.c_str());
   }
 }

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include <LinearMath/btVector3.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace command {
+
+/// A cloth's triangles, as a file has them.
+struct TriangleMesh {
+  std::vector<btVector3> vertices;                   ///< the cloth's nodes [m]
+  std::vector<std::array<int, 3>> triangles;         ///< of nodes
+  std::vector<std::array<float, 2>> texture;         ///< texture coordinates; empty: the file has none
+  std::vector<std::array<int, 3>> textureTriangles;  ///< of each triangle's corners; -1: none there
+  std::map<std::string, std::vector<int>> groups;    ///< the nodes of each, sorted
+  std::vector<int> nodeOfVertex;     ///< of each of the file's vertices: vertices in one place share a node
+  std::vector<std::string> remarks;  ///< what was mended and what is unusual, for the user
+
+  /// Whether each corner has texture coordinates.
+  bool hasTexture() const {
+    return !textureTriangles.empty() &&
+           std::all_of(textureTriangles.begin(), textureTriangles.end(),
+                       [](const auto& corners) { return corners[0] >= 0 && corners[1] >= 0 && corners[2] >= 0; });
+  }
+};
+
+}  // namespace command

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Zlib
+// A run that exploded is not a success; and what says nothing of its springs does not explode.
+
+#include "tests/command/Command.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace wetcloth_test::command_blow_up_test {
+namespace {
+
+using namespace cli;
+
+const std::string kDefaultSprings = WETCLOTH_SOURCE_DIR "/tests/data/meshes/default_springs.json";
+
+Json exploding() {
+  Json scene = readJson(kDefaultSprings);
+  scene["cloths"][0]["spring_stiffness_n_m"] = 100;
+  return scene;
+}
+
+TEST(BlowUp, OfARunIsAFailureThatNamesNodeTimeAndRemedy) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("scene.json", exploding().dump());
+  const std::string out = directory.path("out");
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"run", file, "--json", "-"}, {"export", file, "--format", "ply", "--out", out}}) {
+    const Outcome outcome = runWetcloth(command);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    for (const char* word : {"/cloths/0: node ", "blew up", "t = ", "substeps", "spring_stiffness_n_m"}) {
+      EXPECT_NE(outcome.err.find(word), std::string::npos) << word << ": " << outcome.err;
+    }
+  }
+}
+
+TEST(BlowUp, DoesNotHappenToTheDefaultsAtAnyMeshAndStep) {
+  for (const int nodes : {3, 8, 33}) {
+    for (const int substeps : {1, 4}) {
+      Json scene = readJson(kDefaultSprings);
+      scene["substeps"] = substeps;
+      scene["cloths"][0]["patch"]["columns"] = scene["cloths"][0]["patch"]["rows"] = nodes;
+      const Json result = runScene(scene);
+      EXPECT_LT(result.at("max_speed").get<double>(), 5) << nodes << ' ' << substeps;
+      EXPECT_LE(result.at("springs_n_m").at(0).get<double>(), 100);
+      if (substeps == 4) EXPECT_LT(result.at("max_stretch").get<double>(), 8) << nodes;
+    }
+  }
+}
+
+TEST(BlowUp, IsNotWhatFallsFarIsBlownOrHangsLong) {
+  Json falling = readJson(kDefaultSprings);
+  falling["cloths"][0].erase("pins");
+  falling["duration_s"] = 20;
+  EXPECT_GT(runScene(falling).at("max_speed").get<double>(), 100);
+  Json blown = smallScene();
+  blown["cloths"][0]["effects"] = {{"wind", {{"velocity_m_s", {0, 0, 150}}}}};
+  runScene(blown);
+  Json soft = smallScene();
+  soft["cloths"][0]["effects"] = {{"hooke_springs", {{"stiffness_n_m", 0.2}, {"bending_stiffness_n_m", 0.01}}}};
+  soft["duration_s"] = 3;
+  EXPECT_GT(runScene(soft).at("max_stretch").get<double>(), 3);
+}
+
+TEST(BlowUp, ARunMayLastLongerThanAnHour) {
+  Json scene = smallScene();
+  scene["duration_s"] = 36000;
+  scene["step_s"] = 1;
+  scene["gravity_m_s2"] = {0, 0, 0};
+  scene["substeps"] = 1;
+  const TemporaryDirectory directory;
+  EXPECT_EQ(runWetcloth({"validate", directory.write("scene.json", scene.dump())}).status, 0);
+  scene["duration_s"] = 1e20;
+  expectRefusal(runWetcloth({"validate", directory.write("scene.json", scene.dump())}), {"/duration_s", "2e9 steps"});
+}
+
+}  // namespace
+}  // namespace wetcloth_test::command_blow_up_test
