@@ -141,6 +141,7 @@ TEST_P(ClingOnBodies, NothingHoldsWhereTheBodyNoLongerIs) {
             wetcloth::Stage::elasticity);
         cloth.scene.step(60);
         hand.lift();
+        inTheAir = 0;
         cloth.body.undergo(event);
         cloth.scene.step(5);
         if (event == BodyEvent::turned && motion == BodyMotion::dynamic)
