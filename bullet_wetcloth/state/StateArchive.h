@@ -51,8 +51,9 @@ class WETCLOTH_EXPORT StateArchive {
     bytes(&value, sizeof value);
   }
   void value(bool& value);
-  void value(btVector3& value) { bytes(&value, sizeof value); }
-  void value(btMatrix3x3& value) { bytes(&value, sizeof value); }
+  // Bullet's vectors have a fourth number that it never sets: equal states would have other bytes.
+  void value(btVector3& value) { bytes(value.m_floats, 3 * sizeof(btScalar)); }
+  void value(btMatrix3x3& value) { this->value(value[0], value[1], value[2]); }
   void value(btTransform& value) {
     this->value(value.getBasis());
     this->value(value.getOrigin());
@@ -66,9 +67,10 @@ class WETCLOTH_EXPORT StateArchive {
   /// A number that belongs to a temporary: it is read while checking, too.
   template <class T>
   void local(T& value) {
-    static_assert((std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_same_v<T, btVector3>);
+    static_assert(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>);
     bytes(&value, sizeof value, Target::scratch);
   }
+  void local(btVector3& value) { bytes(value.m_floats, 3 * sizeof(btScalar), Target::scratch); }
 
   /// All numbers of an array whose length is that of the object here.
   template <class T>
@@ -141,6 +143,8 @@ class WETCLOTH_EXPORT StateArchive {
   }
   void expect(const std::string& live, const std::string& what);
 
+  /// Whether it is an object of the world; one that is gone may be asked for, too.
+  bool has(const btCollisionObject* object) const;
   /// An object of the world, or null. One that is not in the world (any more) is saved as null.
   void object(const btCollisionObject*& object);
   void object(btCollisionObject*& object) {
