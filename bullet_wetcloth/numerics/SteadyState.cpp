@@ -34,7 +34,7 @@ bool SteadyState::isReached(const btSoftBody& body, const Water& water, const bt
 }
 
 void SteadyState::note(const btSoftBody& body, const Water& water, const btVector3& gravity, double dt, double moved) {
-  m_shape.resize(m_inputs == DependsOn::waterAndShape ? water.size() : 0);
+  m_shape.resize(m_inputs == DependsOn::waterAndShape ? water.size() : 0, btVector3(0, 0, 0));
   const double capacity = water.totalCapacity();
   const bool isQuiet = moved <= kQuiet * capacity * std::min(dt, 1.0);
   m_quietSteps = isQuiet ? m_quietSteps + 1 : 0;

@@ -46,7 +46,10 @@ void transferFace(StateArchive& archive, btSoftBody::Face& face) {
 }
 
 void transferPose(StateArchive& archive, btSoftBody::Pose& pose) {
-  archive.value(pose.m_bvolume, pose.m_bframe, pose.m_volume, pose.m_com, pose.m_rot, pose.m_scl, pose.m_aqq);
+  archive.value(pose.m_bvolume, pose.m_bframe, pose.m_volume, pose.m_com, pose.m_rot, pose.m_scl);
+  unsigned char isSet = pose.m_bvolume || pose.m_bframe ? 1 : 0;
+  archive.local(isSet);
+  if (isSet != 0) archive.value(pose.m_aqq);
   archive.each(pose.m_pos, [&](btVector3& place) { archive.value(place); });
   archive.each(pose.m_wgh, [&](btScalar& weight) { archive.value(weight); });
 }
@@ -54,26 +57,33 @@ void transferPose(StateArchive& archive, btSoftBody::Pose& pose) {
 void transferCluster(StateArchive& archive, btSoftBody::Cluster& cluster) {
   archive.each(cluster.m_masses, [&](btScalar& mass) { archive.value(mass); });
   archive.each(cluster.m_framerefs, [&](btVector3& place) { archive.value(place); });
-  archive.value(cluster.m_framexform, cluster.m_idmass, cluster.m_imass, cluster.m_locii, cluster.m_invwi);
+  archive.value(cluster.m_framexform, cluster.m_imass, cluster.m_locii, cluster.m_invwi);
   archive.value(cluster.m_com, cluster.m_vimpulses[0], cluster.m_vimpulses[1], cluster.m_dimpulses[0]);
   archive.value(cluster.m_dimpulses[1], cluster.m_nvimpulses, cluster.m_ndimpulses, cluster.m_lv, cluster.m_av);
 }
 
+// Of the anchors of the deformable world Bullet sets the rest for links of multibodies only; the constants of the
+// others are computed before each solve.
 void transferAnchors(StateArchive& archive, btSoftBody& body) {
   for (int k = 0; k < body.m_anchors.size(); ++k) {
-    btSoftBody::Anchor& anchor = body.m_anchors[k];
-    archive.value(anchor.m_local, anchor.m_influence, anchor.m_c0, anchor.m_c1, anchor.m_c2);
+    archive.value(body.m_anchors[k].m_local, body.m_anchors[k].m_influence);
   }
   for (int k = 0; k < body.m_deformableAnchors.size(); ++k) {
     btSoftBody::DeformableNodeRigidAnchor& anchor = body.m_deformableAnchors[k];
-    archive.value(anchor.m_local, anchor.m_c0, anchor.m_c1, anchor.m_c2, anchor.m_c3, anchor.m_c4, anchor.m_c5);
-    archive.value(anchor.m_cti.m_normal, anchor.m_cti.m_offset, anchor.m_cti.m_bary, anchor.t1, anchor.t2);
+    archive.value(anchor.m_local, anchor.m_c0, anchor.m_c1, anchor.m_c2, anchor.m_c3, anchor.m_c4);
+    archive.value(anchor.m_cti.m_normal, anchor.m_cti.m_offset);
   }
 }
 
+// Bullet sets these in the first substep.
+void transferStep(StateArchive& archive, btSoftBody::SolverState& step) {
+  unsigned char isSet = step.sdt != 0 && step.isdt == 1 / step.sdt ? 1 : 0;
+  archive.local(isSet);
+  if (isSet != 0) archive.value(step.sdt, step.isdt, step.velmrg, step.radmrg, step.updmrg);
+}
+
 void transferSolver(StateArchive& archive, btSoftBody& body) {
-  btSoftBody::SolverState& solver = body.m_sst;
-  archive.value(solver.sdt, solver.isdt, solver.velmrg, solver.radmrg, solver.updmrg);
+  transferStep(archive, body.m_sst);
   archive.value(body.m_timeacc, body.m_bounds[0], body.m_bounds[1], body.m_bUpdateRtCst, body.m_maxSpeedSquared);
   archive.value(body.m_restLengthScale, body.m_windVelocity, body.m_softSoftCollision);
 }

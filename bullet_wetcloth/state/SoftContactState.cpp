@@ -54,10 +54,15 @@ void transferInfo(StateArchive& archive, btSoftBody::sCti& info) {
   archive.value(info.m_normal, info.m_offset);  // Bullet neither writes nor reads m_bary of this
 }
 
+// Bullet sets the impulse matrix and the arm for a rigid body only, and the rest for links of multibodies only.
 void transferRigid(StateArchive& archive, btSoftBody::DeformableRigidContact& contact) {
+  const btCollisionObject* const object = contact.m_cti.m_colObj;
+  const bool isThere = archive.isSaving() && archive.has(object);
+  unsigned char isRigid = isThere && object->getInternalType() == btCollisionObject::CO_RIGID_BODY ? 1 : 0;
   transferInfo(archive, contact.m_cti);
-  archive.value(contact.m_c0, contact.m_c1, contact.m_c2, contact.m_c3, contact.m_c4, contact.m_c5);
-  archive.value(contact.t1, contact.t2);
+  archive.local(isRigid);
+  if (isRigid != 0) archive.value(contact.m_c0, contact.m_c1);
+  archive.value(contact.m_c2, contact.m_c3, contact.m_c4, contact.m_c5);
 }
 
 void transferPositionBased(StateArchive& archive, btSoftBody& body, const SoftBodyArray& bodies) {

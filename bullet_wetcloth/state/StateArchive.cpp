@@ -79,6 +79,13 @@ void StateArchive::expect(const std::string& live, const std::string& what) {
     fail(what + " is " + inQuotes(live) + " here and " + inQuotes(found) + " in the saved state");
 }
 
+bool StateArchive::has(const btCollisionObject* object) const {
+  const btCollisionObjectArray& objects = m_world.getCollisionObjectArray();
+  bool isThere = false;
+  for (int i = 0; i < objects.size() && !isThere; ++i) isThere = objects[i] == object;
+  return isThere;
+}
+
 void StateArchive::object(const btCollisionObject*& object) {
   const btCollisionObjectArray& objects = m_world.getCollisionObjectArray();
   int place = -1;

@@ -54,10 +54,10 @@ class WETCLOTH_EXPORT StateArchive {
   }
   /// A truth value.
   void value(bool& value);
-  /// A vector, all four numbers of it.
-  void value(btVector3& value) { bytes(&value, sizeof value); }
+  /// A vector. Bullet never sets the fourth number of its vectors: with it, equal states would have other bytes.
+  void value(btVector3& value) { bytes(value.m_floats, 3 * sizeof(btScalar)); }
   /// A matrix.
-  void value(btMatrix3x3& value) { bytes(&value, sizeof value); }
+  void value(btMatrix3x3& value) { this->value(value[0], value[1], value[2]); }
   /// A transform.
   void value(btTransform& value) {
     this->value(value.getBasis());
@@ -73,9 +73,10 @@ class WETCLOTH_EXPORT StateArchive {
   /// A number that belongs to a temporary: it is read while checking, too.
   template <class T>
   void local(T& value) {
-    static_assert((std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_same_v<T, btVector3>);
+    static_assert(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>);
     bytes(&value, sizeof value, Target::scratch);
   }
+  void local(btVector3& value) { bytes(value.m_floats, 3 * sizeof(btScalar), Target::scratch); }
 
   /// All numbers of an array whose length is that of the object here.
   template <class T>
@@ -151,6 +152,8 @@ class WETCLOTH_EXPORT StateArchive {
   /// A text that must be the same here: throws StateError that names it and both.
   void expect(const std::string& live, const std::string& what);
 
+  /// Whether it is an object of the world; one that is gone may be asked for, too.
+  bool has(const btCollisionObject* object) const;
   /// An object of the world, or null. One that is not in the world (any more) is saved as null.
   void object(const btCollisionObject*& object);
   /// The same for a pointer to what may change.

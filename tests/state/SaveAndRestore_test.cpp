@@ -2,6 +2,7 @@
 // A run that is saved at any step and restored into a world that was built anew goes on bit for bit as the run that
 // nobody touched.
 
+#include "tests/state/FurnishedScene.h"
 #include "tests/state/StateScene.h"
 
 namespace wetcloth_test::save_and_restore_test {
@@ -83,6 +84,22 @@ TEST(SaveAndRestoreASleeper, WhichSleepsWhenItIsSaved) {
   late.restore(early.saved());
   EXPECT_FALSE(late.cloth().body().isActive());
 }
+
+class SaveAndRestoreACloth : public InEveryWorld {};
+
+TEST_P(SaveAndRestoreACloth, WithAllThatABodyMayHave) {
+  for (const int saveAt : {0, 1, 20}) {
+    state_scene::FurnishedScene early(GetParam());
+    early.step(saveAt);
+    state_scene::FurnishedScene late(GetParam());
+    late.restore(early.saved());
+    early.step(kStepsAfter);
+    late.step(kStepsAfter);
+    EXPECT_TRUE(late.saved() == early.saved()) << "saved after step " << saveAt;
+  }
+}
+
+WETCLOTH_IN_EVERY_WORLD(SaveAndRestoreACloth);
 
 // Bullet turns its trees of boxes about by their nodes' addresses, so that two worlds of the same numbers find contacts
 // in different orders sooner or later: the whole state says so before a position does.

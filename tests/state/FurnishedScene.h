@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include "tests/support/ContactScene.h"
+
+#include <memory>
+#include <sstream>
+#include <string>
+
+namespace wetcloth_test::state_scene {
+
+/// A cloth with a pose, clusters, and anchors to a box, above a body that is not a rigid one.
+class FurnishedScene {
+ public:
+  explicit FurnishedScene(WorldKind kind) : m_scene(kind) {
+    btSoftBody& body = m_scene.body();
+    body.m_cfg.collisions = contactFlags(kind);
+    body.setPose(false, true);
+    body.generateClusters(4);
+    if (m_scene.bullet.isDeformable()) {
+      for (const int node : {3, 7}) body.appendDeformableAnchor(node, &m_box.body());
+    } else {
+      for (const int node : {3, 7}) body.appendAnchor(node, &m_box.body());
+    }
+    m_object.setCollisionShape(&m_sphere);
+    m_object.getWorldTransform().setOrigin(btVector3(btScalar(0.5), btScalar(-0.22), btScalar(0.5)));
+    m_scene.world().addCollisionObject(&m_object);
+    m_wet = std::make_unique<wetcloth::WetClothWorld>(m_scene.world());
+    m_wet->setLog(nullptr);
+    m_wet->add(body);
+  }
+  ~FurnishedScene() {
+    m_wet.reset();
+    m_scene.world().removeCollisionObject(&m_object);
+  }
+  FurnishedScene(const FurnishedScene&) = delete;
+  FurnishedScene& operator=(const FurnishedScene&) = delete;
+
+  void step(int count) { m_scene.bullet.step(count); }
+  void restore(const std::string& state) {
+    std::istringstream stream(state);
+    m_wet->restore(stream);
+  }
+  std::string saved() const {
+    std::ostringstream stream;
+    m_wet->save(stream);
+    return stream.str();
+  }
+
+ private:
+  CoreScene m_scene;
+  RigidBody m_box{m_scene.bullet, box(0.1, 0.1, 0.1), btScalar(0.2), btVector3(btScalar(-0.2), 0, btScalar(0.6))};
+  btSphereShape m_sphere{btScalar(0.2)};
+  btCollisionObject m_object;
+  std::unique_ptr<wetcloth::WetClothWorld> m_wet;
+};
+
+}  // namespace wetcloth_test::state_scene
