@@ -125,7 +125,8 @@ class ObjMesh {
     if (std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end()) {
       rejectLine(line, "a face must not have the same corner twice");
     }
-    // A polygon that is not flat is cut the same way whichever of its corners comes first.
+    // A polygon that is not flat is cut the same way whichever corner comes first, and, in takeFace(), either way
+    // round.
     std::rotate(corners.begin(),
                 std::min_element(corners.begin(), corners.end(),
                                  [](const Corner& a, const Corner& b) { return a.vertex < b.vertex; }),
@@ -134,10 +135,13 @@ class ObjMesh {
   }
 
   void takeFace(std::istringstream& words, int line) {
-    const std::vector<Corner> corners = readCorners(words, line);
+    std::vector<Corner> corners = readCorners(words, line);
+    const bool isTurned = corners[1].vertex > corners.back().vertex;
+    if (isTurned) std::reverse(corners.begin() + 1, corners.end());
     std::vector<Point> places;
     for (const Corner& corner : corners) places.push_back(m_places[static_cast<std::size_t>(corner.vertex)]);
-    for (const auto& [a, b, c] : clipEars(places)) {
+    for (auto [a, b, c] : clipEars(places)) {
+      if (isTurned) std::swap(b, c);
       const Corner &first = corners[static_cast<std::size_t>(a)], &second = corners[static_cast<std::size_t>(b)],
                    &third = corners[static_cast<std::size_t>(c)];
       m_mesh.triangles.push_back({first.vertex, second.vertex, third.vertex});

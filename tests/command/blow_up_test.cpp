@@ -43,9 +43,9 @@ TEST(BlowUp, DoesNotHappenToTheDefaultsAtAnyMeshAndStep) {
       scene["substeps"] = substeps;
       scene["cloths"][0]["patch"]["columns"] = scene["cloths"][0]["patch"]["rows"] = nodes;
       const Json result = runScene(scene);
-      EXPECT_LT(result.at("max_speed").get<double>(), 5) << nodes << ' ' << substeps;
+      EXPECT_LT(result.at("max_speed").get<double>(), 9.81) << nodes << ' ' << substeps;  // than in a free fall
       EXPECT_LE(result.at("springs_n_m").at(0).get<double>(), 100);
-      if (substeps == 4) EXPECT_LT(result.at("max_stretch").get<double>(), 8) << nodes;
+      EXPECT_LT(result.at("max_stretch").get<double>(), substeps == 4 ? 20 : 200) << nodes;
     }
   }
 }
