@@ -194,7 +194,7 @@ TEST_P(BadInput, MassesThatAreNotFinite) {
 }
 
 TEST_P(BadInput, FabricFields) {
-  const auto refused = [this](double wetcloth::Fabric::*field, const std::string& name, bool zeroIsBad) {
+  const auto refused = [](double wetcloth::Fabric::*field, const std::string& name, bool zeroIsBad) {
     std::vector<std::pair<double, std::string>> values = {{-1.5, "-1.5"}, {kNaN, "nan"}, {kInfinity, "inf"}};
     if (zeroIsBad) values.push_back({0, "0"});
     for (const auto& [value, text] : values) {

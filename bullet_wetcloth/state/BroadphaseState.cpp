@@ -110,12 +110,12 @@ void transferDynamicTrees(StateArchive& archive, btDbvtBroadphase& broadphase, c
   }
 }
 
-using Pair = std::pair<int, int>;
+using Overlap = std::pair<int, int>;
 
-std::vector<Pair> pairsOf(const btCollisionWorld& world) {
+std::vector<Overlap> pairsOf(const btCollisionWorld& world) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   const btOverlappingPairCache& cache = *world.getBroadphase()->getOverlappingPairCache();
-  std::vector<Pair> pairs;
+  std::vector<Overlap> pairs;
   for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
     const btBroadphasePair& pair = cache.getOverlappingPairArrayPtr()[i];
     pairs.emplace_back(indexOf(objects, pair.m_pProxy0), indexOf(objects, pair.m_pProxy1));
@@ -123,7 +123,7 @@ std::vector<Pair> pairsOf(const btCollisionWorld& world) {
   return pairs;
 }
 
-void setPairs(btCollisionWorld& world, const std::vector<Pair>& pairs) {
+void setPairs(btCollisionWorld& world, const std::vector<Overlap>& pairs) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   btOverlappingPairCache& cache = *world.getBroadphase()->getOverlappingPairCache();
   if (pairsOf(world) == pairs) return;
@@ -131,17 +131,17 @@ void setPairs(btCollisionWorld& world, const std::vector<Pair>& pairs) {
     const btBroadphasePair pair = cache.getOverlappingPairArrayPtr()[cache.getNumOverlappingPairs() - 1];
     cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, world.getDispatcher());
   }
-  for (const Pair& pair : pairs) {
+  for (const Overlap& pair : pairs) {
     cache.addOverlappingPair(objects[pair.first]->getBroadphaseHandle(), objects[pair.second]->getBroadphaseHandle());
   }
 }
 
 void transferPairs(StateArchive& archive, btCollisionWorld& world) {
   const int size = world.getNumCollisionObjects();
-  std::vector<Pair> pairs;
+  std::vector<Overlap> pairs;
   if (archive.isSaving()) pairs = pairsOf(world);
   pairs.resize(archive.count(pairs.size()));
-  for (Pair& pair : pairs) {
+  for (Overlap& pair : pairs) {
     pair.first = archive.place(pair.first, size, "object of an overlapping pair");
     pair.second = archive.place(pair.second, size, "object of an overlapping pair");
     if (pair.first == pair.second) archive.fail("an object overlaps itself");

@@ -20,7 +20,7 @@ constexpr const char* tableLegend =
     "median's interval of 95 %, the larger of the two.\n";
 
 /// A number beside what could be told at all, which it is not when it is less.
-std::string shown(const CostReport::Finding& finding) {
+std::string withNoise(const CostReport::Finding& finding) {
   char text[64];
   const int decimals = finding.noise < 1 ? 2 : 1;
   if (finding.isBelowNoise()) {
@@ -121,8 +121,8 @@ std::string CostReport::row(const Cost& cost) const {
   const Finding mean{nanosecondsPerNode(cost.ours.mean), nanosecondsPerNode(cost.ours.meanHalfWidth)};
   char text[240];
   std::snprintf(text, sizeof text, "%-18s  %16s  %16s  %18s  %18s\n", cost.name.c_str(),
-                shown({ours.value * scale, ours.noise * scale}).c_str(), shown(mean).c_str(), shown(ours).c_str(),
-                shown(wholePercent(cost)).c_str());
+                withNoise({ours.value * scale, ours.noise * scale}).c_str(), withNoise(mean).c_str(),
+                withNoise(ours).c_str(), withNoise(wholePercent(cost)).c_str());
   return text;
 }
 

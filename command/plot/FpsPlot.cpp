@@ -11,7 +11,7 @@
 namespace command {
 namespace {
 
-constexpr std::size_t window = 20;  // frames of which the median counts
+constexpr std::size_t medianFrames = 20;  // frames of which the median counts
 
 /// Of the processor, so that other programs do not count.
 double secondsOfFrame(FallingCloth& cloth) {
@@ -29,8 +29,8 @@ class TimedFall {
   bool isDown() const { return m_cloth.fallen() >= m_height; }
   void frame() {
     m_window.push_back(secondsOfFrame(m_cloth));
-    if (m_window.size() < window) return;
-    m_series.add(m_cloth.time() - 0.5 * window * fallSubstepsPerFrame * fallSubstep, 1 / median(m_window));
+    if (m_window.size() < medianFrames) return;
+    m_series.add(m_cloth.time() - 0.5 * medianFrames * fallSubstepsPerFrame * fallSubstep, 1 / median(m_window));
     m_window.clear();
   }
   const PlotSeries& series() const { return m_series; }

@@ -8,8 +8,8 @@ namespace command {
 namespace {
 
 constexpr double dryGrams = 0.01;  // of a node in the paper
-constexpr double duration = 40;    // [s]
-constexpr double substep = 1.0 / 60;
+constexpr double soakedFor = 40;   // [s]
+constexpr double massStep = 1.0 / 60;
 
 /// The middle node of a level cloth whose nodes weigh 0.01 g, as it takes up water; in grams.
 PlotSeries absorb(wetcloth::Fabric fabric, const wetcloth::Absorption::Parameters& absorption, double interval) {
@@ -28,11 +28,11 @@ PlotSeries absorb(wetcloth::Fabric fabric, const wetcloth::Absorption::Parameter
   cloth.add<wetcloth::Absorption>(absorption);
 
   const int middle = patch.node(2, 2);
-  const int every = static_cast<int>(std::lround(interval / substep));
+  const int every = static_cast<int>(std::lround(interval / massStep));
   PlotSeries series;
-  for (int step = 0; step <= static_cast<int>(std::lround(duration / substep)); ++step) {
-    if (step % every == 0) series.add(step * substep, 1e3 * (cloth.dryMass(middle) + cloth.held(middle)));
-    world.substep(btScalar(substep));
+  for (int step = 0; step <= static_cast<int>(std::lround(soakedFor / massStep)); ++step) {
+    if (step % every == 0) series.add(step * massStep, 1e3 * (cloth.dryMass(middle) + cloth.held(middle)));
+    world.substep(btScalar(massStep));
   }
   return series;
 }
@@ -47,7 +47,7 @@ PlotSeries equation2(const wetcloth::Fabric& fabric) {
   PlotSeries series{"Eq. 2", "the paper's Eq. 2, 0.84 g per gram", PlotSeries::Mark::reference, plot_colours::black, {},
                     {}};
   for (int i = 0; i <= 200; ++i) {
-    const double time = duration * i / 200;
+    const double time = soakedFor * i / 200;
     series.add(time, dryGrams * (1 - fabric.capacity * std::expm1(-time / fabric.timeConstant)));
   }
   return series;

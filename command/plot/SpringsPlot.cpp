@@ -11,7 +11,7 @@ namespace {
 
 using Spring = wetcloth::ClothPatch::Spring;
 
-constexpr int side = 7;  // nodes, few enough to tell the springs apart
+constexpr int nodesAlong = 7;  // nodes, few enough to tell the springs apart
 
 /// The links of one kind, with a gap after each. A flexion spring lies on two mechanical ones, so it is drawn as a bow.
 PlotSeries springsOf(const btSoftBody& body, Spring kind) {
@@ -24,7 +24,8 @@ PlotSeries springsOf(const btSoftBody& body, Spring kind) {
     const btVector3 from = link.m_n[0]->m_x;
     const btVector3 along = link.m_n[1]->m_x - from;
     const std::ptrdiff_t node = link.m_n[0] - &body.m_nodes[0];
-    const bool onTheOtherSide = (node / side + node % side) % 2 == 0;  // its neighbours along the row must not hide it
+    // Its neighbours along the row must not hide it.
+    const bool onTheOtherSide = (node / nodesAlong + node % nodesAlong) % 2 == 0;
     const btVector3 across = btVector3(-along.y(), along.x(), 0) * btScalar(onTheOtherSide ? 0.11 : -0.11);
     for (int i = 0; i <= pieces; ++i) {
       const auto share = static_cast<btScalar>(i) / static_cast<btScalar>(pieces);
@@ -55,7 +56,7 @@ std::vector<Plot> springsPlots(const PlotProgress& progress) {
   };
   BulletWorld world(BulletWorld::Settings{});
   wetcloth::ClothPatch patch;
-  patch.columns = patch.rows = side;
+  patch.columns = patch.rows = nodesAlong;
   patch.edgeU = btVector3(btScalar(0.6), 0, 0);
   patch.edgeV = btVector3(0, btScalar(0.6), 0);
   const btSoftBody& body = world.add(patch.build(world.worldInfo()));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double wickingStep = 0.5;  // [s]
 constexpr double frontLevel = 0.05;  // saturation at which the front is read
-constexpr double length = 0.2;       // [m]
+constexpr double stripLength = 0.2;  // [m]
 constexpr double dipped = 0.01;      // of it [m]
 
 /// The strip of examples/scenes/wick_strip.json, in twice the rows: cotton on a board, its lower end in water.
@@ -26,7 +26,7 @@ class Strip {
     m_patch.rows = 121;
     m_patch.origin = btVector3(btScalar(-0.01), btScalar(-dipped), 0);
     m_patch.edgeU = btVector3(btScalar(0.02), 0, 0);
-    m_patch.edgeV = btVector3(0, btScalar(length), 0);
+    m_patch.edgeV = btVector3(0, btScalar(stripLength), 0);
     m_patch.pinnedEdges = {wetcloth::ClothPatch::Edge::left, wetcloth::ClothPatch::Edge::right};
     btSoftBody& body = m_world.add(m_patch.build(m_world.worldInfo()));
     m_cloth = &m_world.wet().add(body, wetcloth::Fabric::cotton());
@@ -42,7 +42,7 @@ class Strip {
   }
   int rows() const { return m_patch.rows; }
   /// Above the water [m].
-  double height(int row) const { return length * row / (m_patch.rows - 1) - dipped; }
+  double height(int row) const { return stripLength * row / (m_patch.rows - 1) - dipped; }
   double saturation(int row) const { return m_cloth->saturation(m_patch.node(0, row)); }
   /// Height up to which the strip is wetter than the front is read at, between the rows linear [m].
   double front() const {
@@ -82,7 +82,7 @@ PlotSeries equilibrium() {
       "equilibrium", "equilibrium, s = exp(-v y / D)", PlotSeries::Mark::reference, plot_colours::black, {}, {}};
   const double rise = wetcloth::Diffusion::Parameters{}.weftDiffusivity / wetcloth::Seepage::Parameters{}.speed;
   for (int i = 0; i <= 100; ++i) {
-    const double height = (length - dipped) * i / 100;
+    const double height = (stripLength - dipped) * i / 100;
     series.add(1e3 * height, std::exp(-height / rise));
   }
   return series;
@@ -142,7 +142,7 @@ PlotSeries washburn() {
       "Washburn", "front as sqrt(t) (Washburn 1921)", PlotSeries::Mark::reference, plot_colours::black, {}, {}};
   for (const double time : frontTimes()) {
     const double height = washburnFactor * std::sqrt(wetcloth::Diffusion::Parameters{}.weftDiffusivity * time);
-    if (height > length - dipped) break;
+    if (height > stripLength - dipped) break;
     series.add(time, 1e3 * height);
   }
   return series;

@@ -43,14 +43,14 @@ struct Format {
 };
 
 const std::vector<Format>& formats() {
-  using Kind = StagedOutput::Kind;
   static const std::vector<Format> all{
-      {"ply", "a folder of Stanford PLY files", Kind::folder, "", pictures::writePlySequence},
-      {"obj_pc2", "a folder of Wavefront OBJ and PC2 point caches, for Blender's modifier Mesh Cache", Kind::folder, "",
-       pictures::writeObjAndPointCaches},
-      {"usda", "a file .usda, USD as text", Kind::file, ".usda", pictures::writeUsd},
-      {"vtk", "a folder of VTK PolyData with run.pvd, for ParaView", Kind::folder, "", pictures::writeVtkSeries},
-      {"html", "a page .html to look at the run in a browser", Kind::file, ".html", pictures::writeHtml}};
+      {"ply", "a folder of Stanford PLY files", StagedOutput::Kind::folder, "", pictures::writePlySequence},
+      {"obj_pc2", "a folder of Wavefront OBJ and PC2 point caches, for Blender's modifier Mesh Cache",
+       StagedOutput::Kind::folder, "", pictures::writeObjAndPointCaches},
+      {"usda", "a file .usda, USD as text", StagedOutput::Kind::file, ".usda", pictures::writeUsd},
+      {"vtk", "a folder of VTK PolyData with run.pvd, for ParaView", StagedOutput::Kind::folder, "",
+       pictures::writeVtkSeries},
+      {"html", "a page .html to look at the run in a browser", StagedOutput::Kind::file, ".html", pictures::writeHtml}};
   return all;
 }
 

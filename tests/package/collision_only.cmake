@@ -12,7 +12,8 @@ run("${WORK_DIR}/full/app-collision")
 set(build "${WORK_DIR}/library")
 set(prefix "${WORK_DIR}/prefix")
 file(REMOVE_RECURSE "${prefix}")
-configure("${SOURCE_DIR}" "${build}" -DWETCLOTH_COLLISION_ONLY=ON -DWETCLOTH_EXACT_COLLISION=OFF ${no_bullet})
+configure("${SOURCE_DIR}" "${build}" -DWETCLOTH_COLLISION_ONLY=ON -DWETCLOTH_EXACT_COLLISION=OFF
+          -DWETCLOTH_FILES_PER_OBJECT=100 ${no_bullet})
 run("${CMAKE_COMMAND}" --build "${build}" --parallel 2)
 run("${CMAKE_COMMAND}" --install "${build}" --prefix "${prefix}")
 configure("${consumer}" "${WORK_DIR}/alone" -DMETHOD=find_package "-DCMAKE_PREFIX_PATH=${prefix}"

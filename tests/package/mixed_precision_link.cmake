@@ -3,8 +3,8 @@
 # the precision. The same line with BT_USE_DOUBLE_PRECISION does, so it is the precision that stops it.
 include("${CMAKE_CURRENT_LIST_DIR}/package_test.cmake")
 
-set(compile "${CXX_COMPILER}" -std=c++17 "${CMAKE_CURRENT_LIST_DIR}/consumer/main.cpp" "-I${SOURCE_DIR}" -isystem
-            "${BULLET_INCLUDE}" -o "${WORK_DIR}/app")
+set(compile "${CXX_COMPILER}" -std=c++17 "${CMAKE_CURRENT_LIST_DIR}/consumer/main.cpp" "-I${SOURCE_DIR}"
+            "-I${BUILD_DIR}/bullet_wetcloth/include" -isystem "${BULLET_INCLUDE}" -o "${WORK_DIR}/app")
 set(libraries "${WETCLOTH_LIBRARY_float64}" "${COLLISION_LIBRARY}" ${BULLET_LIBRARIES_float64})
 if(SANITIZE)
   list(APPEND libraries "-fsanitize=${SANITIZE}")

@@ -2,6 +2,7 @@
 # What the package tests share: the facts about the build under test, and steps that fail with their output.
 cmake_minimum_required(VERSION 3.21)
 include("${FACTS}")
+set(TESTED_COMPILER "${CXX_COMPILER}")
 
 # Projects that a test configures find what this build found, where it found it, unless the test says otherwise. What
 # the person who runs the tests has in the environment must not decide.
@@ -65,9 +66,13 @@ function(must_match text)
   endforeach()
 endfunction()
 
-# The command that configures <source dir> in <build dir>. The objects of an earlier run stay, its cache does not.
+# The command that configures <source dir> in <build dir>. The objects of an earlier run stay, its cache does not; what
+# this build found out about its compiler, CMake need not find out anew.
 function(configure_command source_dir build_dir result)
   file(REMOVE "${build_dir}/CMakeCache.txt")
+  if(CXX_COMPILER STREQUAL TESTED_COMPILER AND NOT EXISTS "${build_dir}/CMakeFiles")
+    file(COPY "${BUILD_DIR}/CMakeFiles/${CMAKE_VERSION}" DESTINATION "${build_dir}/CMakeFiles")
+  endif()
   set(flags "")
   if(SANITIZE)
     set(flags "-fsanitize=${SANITIZE}")

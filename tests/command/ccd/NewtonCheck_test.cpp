@@ -17,7 +17,7 @@ using command::comparison::newtonCheck;
 template <class Scalar>
 class NewtonCheck : public testing::Test {};
 using Scalars = testing::Types<float, double>;
-TYPED_TEST_SUITE(NewtonCheck, Scalars);
+TYPED_TEST_SUITE(NewtonCheck, Scalars, );
 
 TYPED_TEST(NewtonCheck, FirstOfThreeCoplanarMoments) {
   // The volume is (1 - 4t)(1 - 2t)(3 - 4t); at the first root the vertex is in the middle of the face.

@@ -17,7 +17,7 @@ using command::comparison::textbookCheck;
 template <class Scalar>
 class TextbookCheck : public testing::Test {};
 using Scalars = testing::Types<float, double>;
-TYPED_TEST_SUITE(TextbookCheck, Scalars);
+TYPED_TEST_SUITE(TextbookCheck, Scalars, );
 
 TYPED_TEST(TextbookCheck, VertexThroughFace) {
   const Query<TypeParam> query{{{0.25, 0.5, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
