@@ -6,6 +6,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace wetcloth_test::state_scene {
 
@@ -37,6 +38,7 @@ class FurnishedScene {
   FurnishedScene& operator=(const FurnishedScene&) = delete;
 
   void step(int count) { m_scene.bullet.step(count); }
+  std::vector<btScalar> look() { return stateOf(m_scene.body()); }
   void restore(const std::string& state) {
     std::istringstream stream(state);
     m_wet->restore(stream);
