@@ -1,4 +1,10 @@
 # SPDX-License-Identifier: Zlib
+# wetcloth_compile_quickly(<target>): for code that sets up, asks and judges, while the time goes into the library and
+# into Bullet. In Release it compiles in two thirds of the time, and no result changes.
+function(wetcloth_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-O1>)
+endfunction()
+
 # wetcloth_compile_options(<target>): what every target of this tree is compiled with, and none of its users.
 #
 # -Wconversion is left out on purpose: water is double and btScalar is float or double, so code for both
