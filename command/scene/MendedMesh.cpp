@@ -15,7 +15,7 @@ namespace {
 
 using wetcloth::MeshReport;
 
-constexpr std::size_t mostNodes = 1000000;
+constexpr std::size_t mostNodesOfMesh = 1000000;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -102,9 +102,9 @@ void requireAreaAtEveryNode(const TriangleMesh& mesh) {
 
 TriangleMesh mended(TriangleMesh mesh) {
   joinCoincidentVertices(mesh);
-  if (mesh.vertices.size() > mostNodes) {
+  if (mesh.vertices.size() > mostNodesOfMesh) {
     throw std::invalid_argument("has " + std::to_string(mesh.vertices.size()) +
-                                " vertices in different places, must have at most " + std::to_string(mostNodes));
+                                " vertices in different places, must have at most " + std::to_string(mostNodesOfMesh));
   }
   const MeshReport joined = wetcloth::checkMesh(mesh.vertices, mesh.triangles);
   std::vector<int> faces = joined.degenerateFaces;

@@ -49,7 +49,7 @@ std::array<float, 2> readTexture(std::istringstream& words) {
 }
 
 /// A corner as the file has it: numbers from 0, -1 for no texture coordinates.
-struct Corner {
+struct FaceCorner {
   int vertex;
   int texture;
 };
@@ -63,9 +63,9 @@ int readNumber(const char* text, char** end, std::size_t count) {
 }
 
 /// "7", "7/1", "7//3" and "7/1/3" all mean vertex 7. Texture coordinates that are not there are none.
-Corner readCorner(const std::string& word, std::size_t vertices, std::size_t textures, int line) {
+FaceCorner readCorner(const std::string& word, std::size_t vertices, std::size_t textures, int line) {
   char* end = nullptr;
-  Corner corner{readNumber(word.c_str(), &end, vertices), -1};
+  FaceCorner corner{readNumber(word.c_str(), &end, vertices), -1};
   if (corner.vertex < 0 || (*end != '\0' && *end != '/')) {
     rejectLine(line, "face index \"" + word + "\" must be from 1 to " + std::to_string(vertices) +
                          ", the number of vertices above it, or negative from the last");
@@ -109,8 +109,8 @@ class ObjMesh {
     for (std::string name; words >> name;) names.push_back(name);
   }
 
-  std::vector<Corner> readCorners(std::istringstream& words, int line) const {
-    std::vector<Corner> corners;
+  std::vector<FaceCorner> readCorners(std::istringstream& words, int line) const {
+    std::vector<FaceCorner> corners;
     for (std::string word; words >> word;) {
       corners.push_back(readCorner(word, m_places.size(), m_mesh.texture.size(), line));
     }
@@ -120,7 +120,7 @@ class ObjMesh {
                            std::to_string(corners.size()));
     }
     std::vector<int> vertices;
-    for (const Corner& corner : corners) vertices.push_back(corner.vertex);
+    for (const FaceCorner& corner : corners) vertices.push_back(corner.vertex);
     std::sort(vertices.begin(), vertices.end());
     if (std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end()) {
       rejectLine(line, "a face must not have the same corner twice");
@@ -129,27 +129,27 @@ class ObjMesh {
     // round.
     std::rotate(corners.begin(),
                 std::min_element(corners.begin(), corners.end(),
-                                 [](const Corner& a, const Corner& b) { return a.vertex < b.vertex; }),
+                                 [](const FaceCorner& a, const FaceCorner& b) { return a.vertex < b.vertex; }),
                 corners.end());
     return corners;
   }
 
   void takeFace(std::istringstream& words, int line) {
-    std::vector<Corner> corners = readCorners(words, line);
+    std::vector<FaceCorner> corners = readCorners(words, line);
     const bool isTurned = corners[1].vertex > corners.back().vertex;
     if (isTurned) std::reverse(corners.begin() + 1, corners.end());
     std::vector<Point> places;
-    for (const Corner& corner : corners) places.push_back(m_places[static_cast<std::size_t>(corner.vertex)]);
+    for (const FaceCorner& corner : corners) places.push_back(m_places[static_cast<std::size_t>(corner.vertex)]);
     for (auto [a, b, c] : clipEars(places)) {
       if (isTurned) std::swap(b, c);
-      const Corner &first = corners[static_cast<std::size_t>(a)], &second = corners[static_cast<std::size_t>(b)],
-                   &third = corners[static_cast<std::size_t>(c)];
+      const FaceCorner &first = corners[static_cast<std::size_t>(a)], &second = corners[static_cast<std::size_t>(b)],
+                       &third = corners[static_cast<std::size_t>(c)];
       m_mesh.triangles.push_back({first.vertex, second.vertex, third.vertex});
       m_mesh.textureTriangles.push_back({first.texture, second.texture, third.texture});
     }
     for (const auto* names : {&m_groups, &m_objects}) {
       for (const std::string& name : *names) {
-        for (const Corner& corner : corners) m_mesh.groups[name].push_back(corner.vertex);
+        for (const FaceCorner& corner : corners) m_mesh.groups[name].push_back(corner.vertex);
       }
     }
   }

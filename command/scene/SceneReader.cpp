@@ -23,14 +23,14 @@ namespace {
 using wetcloth::ClothPatch;
 
 constexpr int mostNodesAlongAnEdge = 4096;
-constexpr int mostNodes = 1000000;
+constexpr int mostNodesOfPatch = 1000000;
 
 ClothPatch readPatch(JsonCursor cursor) {
   cursor.expectObject(keys::patch);
   ClothPatch patch;
   if (const auto columns = cursor.find("columns")) patch.columns = columns->integer(2, mostNodesAlongAnEdge);
   if (const auto rows = cursor.find("rows")) patch.rows = rows->integer(2, mostNodesAlongAnEdge);
-  if (patch.nodeCount() > mostNodes) cursor.complain("columns x rows must be at most 1000000");
+  if (patch.nodeCount() > mostNodesOfPatch) cursor.complain("columns x rows must be at most 1000000");
   readVector(cursor, "origin_m", patch.origin);
   patch.edgeU = readVector(cursor.at("edge_u_m"));
   patch.edgeV = readVector(cursor.at("edge_v_m"));
