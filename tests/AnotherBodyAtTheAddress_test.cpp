@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Zlib
 // A body is deleted without a word to us, and an allocator gives its address to the next: that is a dry one.
 
-#include "tests/support/CoreScene.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Patches.h"
 
 #include <new>
 #include <stdexcept>

@@ -2,7 +2,10 @@
 // Who goes first: the world, its bodies, or we. A WetClothWorld that was detached, or has no cloths left, touches
 // nothing when it goes. Memory checkers watch these.
 
-#include "tests/support/CoreScene.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Patches.h"
 
 #include <memory>
 #include <sstream>

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Zlib
 // An application's loop is: step, change the body, draw. What it reads right after a cut fits the body that it draws.
 
-#include "tests/support/CoreScene.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Patches.h"
 
 namespace wetcloth_test::reading_after_a_cut_test {
 
@@ -19,7 +22,7 @@ void refine(btSoftBody& body) {
 
 class ReadingAfterACut : public InEveryWorld {
  protected:
-  CoreScene scene{GetParam(), hangingPatch(6)};
+  BodyScene scene{GetParam(), hangingPatch(6)};
   wetcloth::WetClothWorld wet{scene.world()};
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
   void SetUp() override { wet.setLog({}); }
@@ -27,7 +30,7 @@ class ReadingAfterACut : public InEveryWorld {
 
 TEST_P(ReadingAfterACut, IsOfAllNodesAtOnce) {
   cloth.add<wetcloth::Absorption>();
-  scene.bullet.step(20);
+  scene.bullet().step(20);
   const double held = cloth.ledger().held;
   refine(scene.body());
   const int last = scene.body().m_nodes.size() - 1;
@@ -41,7 +44,7 @@ TEST_P(ReadingAfterACut, IsOfAllNodesAtOnce) {
     EXPECT_LE(cloth.saturation(i), 1 + 1e-5);
   }
   EXPECT_NEAR(sum, held, 1e-12 * held);
-  scene.bullet.step(5);
+  scene.bullet().step(5);
   EXPECT_TRUE(isFinite(scene.body()));
 }
 
@@ -56,21 +59,21 @@ TEST_P(ReadingAfterACut, FillsAVertexBuffer) {
 
 TEST_P(ReadingAfterACut, WorksOnAClothWithoutEffects) {
   refine(scene.body());
-  scene.bullet.step(3);
+  scene.bullet().step(3);
   EXPECT_EQ(cloth.nodeCount(), scene.body().m_nodes.size());
   EXPECT_EQ(cloth.held(cloth.nodeCount() - 1), 0);
 }
 
 // Nothing is written into a cloth that is dry and has no effects, cut or not.
 TEST_P(ReadingAfterACut, LeavesADryClothWithoutEffectsAlone) {
-  CoreScene plain(GetParam(), hangingPatch(6));
-  plain.bullet.step(3);
-  scene.bullet.step(3);
+  BodyScene plain(GetParam(), hangingPatch(6));
+  plain.bullet().step(3);
+  scene.bullet().step(3);
   refine(plain.body());
   refine(scene.body());
   EXPECT_EQ(cloth.nodeCount(), plain.body().m_nodes.size());
-  plain.bullet.step(20);
-  scene.bullet.step(20);
+  plain.bullet().step(20);
+  scene.bullet().step(20);
   EXPECT_TRUE(sameBits(stateOf(plain.body()), stateOf(scene.body())));
 }
 
@@ -79,7 +82,7 @@ TEST_P(ReadingAfterACut, MayBeDoneInTheLog) {
   int nodes = 0;
   wet.setLog([&](const std::string&) { nodes = cloth.nodeCount(); });
   refine(scene.body());
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_EQ(nodes, scene.body().m_nodes.size());
 }
 

@@ -3,13 +3,13 @@
 
 #include "bullet_wetcloth/bullet/Contacts.h"
 #include "bullet_wetcloth/bullet_wetcloth.h"
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/CallEffect.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/ContactScene.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/RigidBody.h"
+#include "tests/support/SoftBodies.h"
 
 namespace wetcloth_test::contacts_test {
 namespace {

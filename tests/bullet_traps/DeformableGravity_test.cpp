@@ -2,7 +2,8 @@
 // An implicit step of the deformable world takes gravity from the last btDeformableGravityForce; without one it takes a
 // variable that it never set.
 
-#include "tests/support/CoreScene.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/Patches.h"
 
 namespace wetcloth_test::deformable_gravity_test {
 
@@ -32,7 +33,7 @@ TEST(DeformableGravity, ThatIsMissingIsSaidWhenABodyIsAdded) {
 
 // Its nodes follow its modes: an effect would do nothing, and nobody would know.
 TEST(ReducedDeformableBody, IsRefused) {
-  CoreScene scene(WorldKind::deformable);
+  BodyScene scene(WorldKind::deformable);
   scene.body().m_reducedModel = true;
   wetcloth::WetClothWorld wet(scene.world());
   EXPECT_THROW(wet.add(scene.body()), std::invalid_argument);

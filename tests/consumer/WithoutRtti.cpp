@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
-// Part of an application that is compiled without RTTI and exceptions, where the compiler can do so, and without our test
-// support.
+// Part of an application that is compiled without RTTI and exceptions, where the compiler can do so, and without our
+// test support.
 #include "tests/consumer/WithoutRtti.h"
 
 #include <bullet_wetcloth/bullet_wetcloth.h>

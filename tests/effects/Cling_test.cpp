@@ -3,7 +3,6 @@
 
 #include "bullet_wetcloth/bullet/Contacts.h"
 #include "bullet_wetcloth/bullet_wetcloth.h"
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/CallEffect.h"
@@ -12,6 +11,7 @@
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Measures.h"
 #include "tests/support/RigidBody.h"
+#include "tests/support/SoftBodies.h"
 
 namespace wetcloth_test::cling_test {
 namespace {

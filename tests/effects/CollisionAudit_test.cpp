@@ -2,10 +2,10 @@
 // The audit counts what passes through what: hand-made motions with passages that can be counted by hand, in each of
 // Bullet's worlds. Bodies without links move freely, so each node goes where its velocity takes it.
 
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"
+#include "tests/support/SoftBodies.h"
 
 #include <LinearMath/btIDebugDraw.h>
 

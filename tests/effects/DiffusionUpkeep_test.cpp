@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Zlib
 // What Diffusion refuses, how much work it does, and a body that changes while it runs.
 
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Patches.h"
 #include "tests/support/Rejection.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/TransportScene.h"
 
 #include <limits>

@@ -3,7 +3,6 @@
 
 #include "bullet_wetcloth/effects/Dripping.h"
 
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
@@ -12,6 +11,7 @@
 #include "tests/support/Patches.h"
 #include "tests/support/Rejection.h"
 #include "tests/support/RigidBody.h"
+#include "tests/support/SoftBodies.h"
 
 #include <cmath>
 #include <limits>

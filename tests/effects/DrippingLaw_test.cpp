@@ -3,11 +3,11 @@
 
 #include "bullet_wetcloth/effects/Dripping.h"
 
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Patches.h"
+#include "tests/support/SoftBodies.h"
 
 #include <cmath>
 #include <limits>

@@ -3,13 +3,13 @@
 
 #include "bullet_wetcloth/effects/Drying.h"
 
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Patches.h"
 #include "tests/support/Rejection.h"
+#include "tests/support/SoftBodies.h"
 
 #include <cmath>
 #include <limits>

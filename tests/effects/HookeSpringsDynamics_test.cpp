@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Zlib
 // Springs in motion: the force itself, conserved quantities, periods, stiff springs and long steps.
 
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Measures.h"
+#include "tests/support/SoftBodies.h"
 
 #include <algorithm>
 #include <cmath>

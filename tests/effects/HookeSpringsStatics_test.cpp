@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Zlib
 // A hanging chain of springs: link j stretches by (weight below it) / k, dry and wet, however Bullet is set up.
 
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/RigidBody.h"
+#include "tests/support/SoftBodies.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // What the springs take from the body and give back, how often they factor their matrix, what they refuse.
 
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Patches.h"
 #include "tests/support/Rejection.h"
+#include "tests/support/SoftBodies.h"
 
 #include <cmath>
 #include <limits>

@@ -2,13 +2,13 @@
 // How much rain a cloth catches, what of it goes in and what runs off.
 
 #include "bullet_wetcloth/effects/Rain.h"
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/Measures.h"
 #include "tests/support/Patches.h"
 #include "tests/support/Rejection.h"
+#include "tests/support/SoftBodies.h"
 
 #include <gtest/gtest.h>
 

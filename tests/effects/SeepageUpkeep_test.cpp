@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Seepage: the momentum it carries in every world, what it refuses, how much work it does.
 
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Measures.h"
 #include "tests/support/Patches.h"
 #include "tests/support/Rejection.h"
+#include "tests/support/SoftBodies.h"
 #include "tests/support/TransportScene.h"
 
 #include <limits>

@@ -2,12 +2,12 @@
 // What Swelling writes into the links, and what it gives back.
 
 #include "bullet_wetcloth/effects/Swelling.h"
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Patches.h"
 #include "tests/support/Rejection.h"
+#include "tests/support/SoftBodies.h"
 
 #include <algorithm>
 #include <cmath>

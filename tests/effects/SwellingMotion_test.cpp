@@ -2,12 +2,12 @@
 // A cloth that shrinks moves: in every world, with Bullet's links or springs and with HookeSprings.
 
 #include "bullet_wetcloth/effects/Swelling.h"
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Measures.h"
+#include "tests/support/SoftBodies.h"
 
 #include <cmath>
 

@@ -2,12 +2,12 @@
 // Damping along links: exact for one link, never more energy, momentum and spin kept, in every world.
 
 #include "bullet_wetcloth/effects/WetStiffness.h"
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Measures.h"
 #include "tests/support/Patches.h"
+#include "tests/support/SoftBodies.h"
 
 #include <cmath>
 #include <random>

@@ -2,11 +2,11 @@
 // The formulas alone, and what the effect refuses.
 
 #include "bullet_wetcloth/effects/WetStiffness.h"
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/Patches.h"
 #include "tests/support/Rejection.h"
+#include "tests/support/SoftBodies.h"
 
 #include <gtest/gtest.h>
 

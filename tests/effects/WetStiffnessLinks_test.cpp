@@ -2,11 +2,11 @@
 // Bullet's own links: what their constants become, what stays as it was, how much work it is, and what a factor means.
 
 #include "bullet_wetcloth/effects/WetStiffness.h"
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/Patches.h"
+#include "tests/support/SoftBodies.h"
 
 #include <gtest/gtest.h>
 

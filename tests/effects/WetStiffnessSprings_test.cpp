@@ -2,12 +2,12 @@
 // HookeSprings on a cloth whose links water softens: closed forms at rest, the order of adding, the factorisations.
 
 #include "bullet_wetcloth/effects/WetStiffness.h"
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Patches.h"
+#include "tests/support/SoftBodies.h"
 
 #include <cmath>
 #include <vector>

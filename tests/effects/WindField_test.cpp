@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Zlib
 // Wind that varies in space and time, and what the effect refuses.
 
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/Patches.h"
 #include "tests/support/Rejection.h"
+#include "tests/support/SoftBodies.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Zlib
 // What the wind does to a whole cloth in one step: total force, its sharing among corners, relative speed.
 
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/Measures.h"
 #include "tests/support/Patches.h"
+#include "tests/support/SoftBodies.h"
 
 #include <gtest/gtest.h>
 

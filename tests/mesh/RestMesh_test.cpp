@@ -2,10 +2,10 @@
 // A cloth's triangles at rest: known by the rest lengths of their edges, however the body is bent.
 
 #include "bullet_wetcloth/mesh/RestMesh.h"
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/Patches.h"
+#include "tests/support/SoftBodies.h"
 
 #include <gtest/gtest.h>
 

@@ -2,11 +2,11 @@
 // Basori et al. 2017, claims S1 to S3 and S12: the patch, its springs, gravity, and the stretch of the wet cloth.
 
 #include "tests/paper/PaperCloth.h"
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/Measures.h"
+#include "tests/support/SoftBodies.h"
 
 #include <gtest/gtest.h>
 

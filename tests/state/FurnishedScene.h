@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "tests/support/BodyScene.h"
+#include "tests/support/BodyState.h"
 #include "tests/support/ContactScene.h"
+#include "tests/support/RigidBody.h"
 
 #include <memory>
 #include <sstream>
@@ -18,7 +21,7 @@ class FurnishedScene {
     body.m_cfg.collisions = contactFlags(kind);
     body.setPose(false, true);
     body.generateClusters(4);
-    if (m_scene.bullet.isDeformable()) {
+    if (m_scene.bullet().isDeformable()) {
       for (const int node : {3, 7}) body.appendDeformableAnchor(node, &m_box.body());
     } else {
       for (const int node : {3, 7}) body.appendAnchor(node, &m_box.body());
@@ -37,7 +40,7 @@ class FurnishedScene {
   FurnishedScene(const FurnishedScene&) = delete;
   FurnishedScene& operator=(const FurnishedScene&) = delete;
 
-  void step(int count) { m_scene.bullet.step(count); }
+  void step(int count) { m_scene.bullet().step(count); }
   std::vector<btScalar> look() { return stateOf(m_scene.body()); }
   void restore(const std::string& state) {
     std::istringstream stream(state);
@@ -50,8 +53,8 @@ class FurnishedScene {
   }
 
  private:
-  CoreScene m_scene;
-  RigidBody m_box{m_scene.bullet, box(0.1, 0.1, 0.1), btScalar(0.2), btVector3(btScalar(-0.2), 0, btScalar(0.6))};
+  BodyScene m_scene;
+  RigidBody m_box{m_scene.bullet(), box(0.1, 0.1, 0.1), btScalar(0.2), btVector3(btScalar(-0.2), 0, btScalar(0.6))};
   btSphereShape m_sphere{btScalar(0.2)};
   btCollisionObject m_object;
   std::unique_ptr<wetcloth::WetClothWorld> m_wet;

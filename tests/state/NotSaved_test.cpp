@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Zlib
 // What is not saved is refused when it is to be saved, by name; never restored as something else.
 
+#include "tests/support/BodyScene.h"
 #include "tests/support/ContactScene.h"
+#include "tests/support/Patches.h"
+#include "tests/support/RigidBody.h"
 
 #include <BulletCollision/BroadphaseCollision/btAxisSweep3.h>
 #include <BulletDynamics/ConstraintSolver/btNNCGConstraintSolver.h>
@@ -111,7 +114,7 @@ TEST(NotSaved, AreOtherSolvers) {
 
 TEST(NotSaved, AreMultiBodies) {
   for (const WorldKind kind : {WorldKind::softMultiBody, WorldKind::deformable}) {
-    CoreScene scene(kind);
+    BodyScene scene(kind);
     auto& world = static_cast<btMultiBodyDynamicsWorld&>(scene.world());
     btMultiBody multiBody(0, 1, btVector3(1, 1, 1), false, false);
     multiBody.finalizeMultiDof();
@@ -149,17 +152,17 @@ TEST(NotSaved, AreContactsOfSoftBodiesInTheDeformableWorld) {
 
 // Bullet measures a convex shape once, in cells, and goes by that when the shape has become another one.
 TEST(NotSaved, AreOldDistancesOfAShapeThatWasChanged) {
-  CoreScene scene(WorldKind::softRigid);
+  BodyScene scene(WorldKind::softRigid);
   scene.body().m_cfg.collisions = contactFlags(WorldKind::softRigid);
-  RigidBody sphere(scene.bullet, std::make_unique<btSphereShape>(btScalar(0.2)), 0,
+  RigidBody sphere(scene.bullet(), std::make_unique<btSphereShape>(btScalar(0.2)), 0,
                    btVector3(btScalar(0.5), btScalar(-0.22), btScalar(0.5)));
   wetcloth::WetClothWorld wet(scene.world());
-  scene.bullet.step(30);
+  scene.bullet().step(30);
   EXPECT_EQ(refusal(wet), "");
   auto& shape = static_cast<btSphereShape&>(*sphere.body().getCollisionShape());
   shape.setUnscaledRadius(btScalar(0.25));
   expectRefused(wet, "the shape of collision object 1 was changed");
-  scene.bullet.info().m_sparsesdf.RemoveReferences(&shape);
+  scene.bullet().info().m_sparsesdf.RemoveReferences(&shape);
   EXPECT_EQ(refusal(wet), "");
 }
 
@@ -177,40 +180,40 @@ class OwnAlgorithm : public btSoftRigidCollisionAlgorithm {
 };
 
 TEST(NotSaved, AreAlgorithmsOfOnesOwn) {
-  CoreScene scene(WorldKind::softRigid);
+  BodyScene scene(WorldKind::softRigid);
   OwnAlgorithm::CreateFunc create;
   OwnAlgorithm::CreateFunc createSwapped;
   createSwapped.m_swapped = true;
   auto& dispatcher = static_cast<btCollisionDispatcher&>(*scene.world().getDispatcher());
   dispatcher.registerCollisionCreateFunc(SOFTBODY_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE, &create);
   dispatcher.registerCollisionCreateFunc(SPHERE_SHAPE_PROXYTYPE, SOFTBODY_SHAPE_PROXYTYPE, &createSwapped);
-  RigidBody sphere(scene.bullet, std::make_unique<btSphereShape>(btScalar(0.2)), 0,
+  RigidBody sphere(scene.bullet(), std::make_unique<btSphereShape>(btScalar(0.2)), 0,
                    btVector3(btScalar(0.5), btScalar(-0.22), btScalar(0.5)));
   wetcloth::WetClothWorld wet(scene.world());
   EXPECT_EQ(refusal(wet), "");
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   expectRefused(wet, "algorithm that is not one of Bullet's");
 }
 
 // Bullet turns off a constraint that breaks, and a world built anew has it whole.
 TEST(SavedConstraints, AreAsBrokenAsTheyWere) {
-  const auto build = [](CoreScene& scene) {
-    return std::make_unique<RigidBody>(scene.bullet, std::make_unique<btSphereShape>(btScalar(0.2)), btScalar(1),
+  const auto build = [](BodyScene& scene) {
+    return std::make_unique<RigidBody>(scene.bullet(), std::make_unique<btSphereShape>(btScalar(0.2)), btScalar(1),
                                        btVector3(3, 0, 0));
   };
-  CoreScene early(WorldKind::softRigid);
+  BodyScene early(WorldKind::softRigid);
   const auto ball = build(early);
   btPoint2PointConstraint rope(ball->body(), btVector3(0, 1, 0));
   rope.setBreakingImpulseThreshold(btScalar(1e-4));
   early.world().addConstraint(&rope);
-  CoreScene late(WorldKind::softRigid);
+  BodyScene late(WorldKind::softRigid);
   const auto lateBall = build(late);
   btPoint2PointConstraint lateRope(lateBall->body(), btVector3(0, 1, 0));
   late.world().addConstraint(&lateRope);
   {
     wetcloth::WetClothWorld wet(early.world());
     wetcloth::WetClothWorld lateWet(late.world());
-    early.bullet.step(3);
+    early.bullet().step(3);
     ASSERT_FALSE(rope.isEnabled());
     std::istringstream stream(saved(wet));
     lateWet.restore(stream);

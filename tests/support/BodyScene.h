@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/Patches.h"
+#include "tests/support/SoftBodies.h"
 
 #include <BulletSoftBody/btDeformableMassSpringForce.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/Patches.h"
 #include "tests/support/RigidBody.h"
+#include "tests/support/SoftBodies.h"
 
 namespace wetcloth_test {
 

@@ -3,9 +3,9 @@
 
 #include "bullet_wetcloth/effects/Diffusion.h"
 #include "bullet_wetcloth/effects/Seepage.h"
-#include "tests/support/SoftBodies.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/SoftBodies.h"
 
 #include <algorithm>
 #include <functional>

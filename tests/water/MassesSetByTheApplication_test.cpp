@@ -2,7 +2,11 @@
 // Masses that the application sets count from the next step on, before any water moves: they are the new dry masses,
 // those of pinned nodes follow, and the water stays.
 
-#include "tests/support/CoreScene.h"
+#include "tests/support/BodyScene.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
+#include "tests/support/Patches.h"
 
 #include <limits>
 
@@ -14,7 +18,7 @@ constexpr double kRounding = kIsDouble ? 1e-13 : 2e-6;
 
 class MassesSet : public InEveryWorld {
  protected:
-  CoreScene scene{GetParam(), hangingPatch(9)};
+  BodyScene scene{GetParam(), hangingPatch(9)};
   wetcloth::WetClothWorld wet{scene.world()};
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(0.84, 1));
 
@@ -37,9 +41,9 @@ TEST_P(MassesSet, BeforeTheFirstStepAreTheDryMasses) {
   const double pinnedBefore = cloth.dryMass(80);
   soak();
   scene.body().setTotalMass(btScalar(1e-5));
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_NEAR(cloth.dryMass(80), pinnedBefore * ratio, kRounding * pinnedBefore * ratio);
-  scene.bullet.step(2400, btScalar(1) / 60);
+  scene.bullet().step(2400, btScalar(1) / 60);
   EXPECT_NEAR(freeMass(), 1.84e-5, kRounding * 1e-4);
   EXPECT_NEAR(cloth.meanSaturation(), 1, 1e-12);
   for (int i = 0; i < cloth.nodeCount(); ++i) EXPECT_LE(cloth.saturation(i), 1 + 1e-9) << i;
@@ -47,15 +51,15 @@ TEST_P(MassesSet, BeforeTheFirstStepAreTheDryMasses) {
 
 // A cloth that was added with the mass that it has, is the measure.
 TEST_P(MassesSet, BeforeTheFirstStepAreAsIfSetBeforeTheCloth) {
-  CoreScene other(GetParam(), hangingPatch(9));
+  BodyScene other(GetParam(), hangingPatch(9));
   other.body().setTotalMass(btScalar(0.02));
   wetcloth::WetClothWorld otherWet(other.world());
   wetcloth::WetCloth& expected = otherWet.add(other.body(), fabricOf(0.84, 1));
   expected.add<wetcloth::Absorption>({1.0});
   soak();
   scene.body().setTotalMass(btScalar(0.02));
-  other.bullet.step(10);
-  scene.bullet.step(10);
+  other.bullet().step(10);
+  scene.bullet().step(10);
   for (int i = 0; i < cloth.nodeCount(); ++i) {
     EXPECT_NEAR(cloth.dryMass(i), expected.dryMass(i), kRounding * expected.dryMass(i)) << i;
     EXPECT_NEAR(cloth.held(i), expected.held(i), 10 * kRounding * expected.held(i)) << i;
@@ -64,13 +68,13 @@ TEST_P(MassesSet, BeforeTheFirstStepAreAsIfSetBeforeTheCloth) {
 
 TEST_P(MassesSet, OnAWetClothLeaveItsWaterAndItsLedger) {
   soak();
-  scene.bullet.step(60);
+  scene.bullet().step(60);
   const double held = cloth.ledger().held;
   const double free = freeMass();
   const double pinned = cloth.dryMass(76);
   scene.body().setTotalMass(btScalar(3 * free));
   const double set = double(scene.body().getMass(40));
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_NEAR(cloth.dryMass(40), set, kRounding * set);
   EXPECT_NEAR(double(scene.body().getMass(40)), set + cloth.held(40), kRounding * set);
   EXPECT_GT(cloth.dryMass(76), 2 * pinned);
@@ -83,7 +87,7 @@ TEST_P(MassesSet, BetweenWettingAndTheFirstStepWithoutAnyEffect) {
   cloth.setSaturation(1);
   const double held = cloth.held(3);
   for (int i = 0; i < 72; ++i) scene.body().setMass(i, btScalar(0.01));
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_NEAR(cloth.dryMass(3), 0.01, kRounding * 0.01);
   EXPECT_EQ(cloth.held(3), held);
   EXPECT_NEAR(double(scene.body().getMass(3)), 0.01 + held, kRounding * 0.01);
@@ -92,31 +96,31 @@ TEST_P(MassesSet, BetweenWettingAndTheFirstStepWithoutAnyEffect) {
 // Nothing tells of these but the masses themselves: all are found within 32 steps, or when one of them is.
 TEST_P(MassesSet, ByHandAreFoundWithin32Steps) {
   cloth.add<wetcloth::Wind>();
-  scene.bullet.step(3);
+  scene.bullet().step(3);
   for (const int node : {0, 37, 71}) {
     scene.body().m_nodes[node].m_im /= 2;
     const double mass = double(scene.body().getMass(node));
-    scene.bullet.step(33);
+    scene.bullet().step(33);
     EXPECT_NEAR(cloth.dryMass(node), mass, kRounding * mass) << node;
   }
 }
 
 TEST_P(MassesSet, ByHandAtAllNodesAreFoundBeforeAnyWaterMoves) {
   soak();
-  scene.bullet.step(3);
+  scene.bullet().step(3);
   for (int i = 0; i < 72; ++i) scene.body().m_nodes[i].m_im *= 1000;
   const double pinned = cloth.dryMass(80);
   double most = 0;
   addCall(
       cloth, [&](wetcloth::WetCloth& c, const wetcloth::Step&) { most = std::max(most, c.capacity(40)); },
       wetcloth::Stage::sources);
-  scene.bullet.step(1);
+  scene.bullet().step(1);
   EXPECT_NEAR(most, 0.84 * cloth.dryMass(40), 1e-12 * most);
   EXPECT_LT(cloth.dryMass(80), pinned / 100);
 }
 
 TEST_P(MassesSet, BeforeAnEffectIsAddedAreWhatItSees) {
-  scene.bullet.step(3);
+  scene.bullet().step(3);
   for (int i = 0; i < 72; ++i) scene.body().m_nodes[i].m_im /= 2;
   soak();
   EXPECT_NEAR(cloth.dryMass(3), double(scene.body().getMass(3)), kRounding * cloth.dryMass(3));
@@ -125,7 +129,7 @@ TEST_P(MassesSet, BeforeAnEffectIsAddedAreWhatItSees) {
 // A mass that is none changes nothing that we know, and heals with the next commit.
 TEST_P(MassesSet, ThatAreNoMassesAreNotTakenOver) {
   soak();
-  scene.bullet.step(3);
+  scene.bullet().step(3);
   const double dry = cloth.dryMass(5);
   for (const btScalar bad :
        {std::numeric_limits<btScalar>::infinity(), std::numeric_limits<btScalar>::quiet_NaN(), btScalar(-1)}) {
