@@ -65,8 +65,8 @@ void WetCloth::step(const Step& step) {
   if (m_watch.hasChanged()) adaptToBody();
   const bool isIdle = m_effects.empty() && !m_water.movedSinceCommit();
   if (isIdle ? m_body.m_bUpdateRtCst : m_masses.seemSet()) takeOverMasses();
+  followRestLengths();
   if (isIdle) return;
-  if (m_restLengths.haveChanged()) attachAgain();
   apply(Stage::sources, Stage::material, step);
   if (m_water.movedSinceCommit()) commit();
   if (isAwake(step)) apply(Stage::forces, Stage::elasticity, step);
@@ -119,6 +119,15 @@ void WetCloth::followBody() {
   }
   if (m_watch.hasChanged()) adaptToBody();
   takeOverMasses();
+}
+
+// A body's first step sets the lengths of its links to what they are then: that is Bullet's way to begin, and no change of
+// the shape at rest by the application.
+void WetCloth::followRestLengths() {
+  const bool beginsNow = m_body.m_bUpdateRtCst && !m_hasStepped;
+  if (m_hasJustBegun && !beginsNow) m_restLengths.remember();
+  m_hasJustBegun = beginsNow;
+  if (!m_effects.empty() && m_restLengths.haveChanged()) attachAgain();
 }
 
 void WetCloth::takeOverMasses() {
@@ -234,7 +243,7 @@ double WetCloth::roughness(int node) const { return wetRoughness(m_fabric.dryRou
 void WetCloth::transferState(StateArchive& archive) {
   archive.expect(m_water.size(), "a cloth's number of nodes");
   archive.expect(m_world.isInWorld(m_body), "whether a cloth's body is in the world");
-  archive.value(m_massAsleep, m_wasPresent);
+  archive.value(m_massAsleep, m_wasPresent, m_hasJustBegun);
   m_water.transferState(archive);
   m_masses.transferState(archive);
   m_linkConstants.transferState(archive);

@@ -209,6 +209,7 @@ class WETCLOTH_EXPORT WetCloth {
   /// Whether the body, which is in the world, is the one that was added. One that came back may be another that an
   /// allocator has put at its address: it is the same if it has stepped, or is in all as we left it.
   bool isOfThisBody();
+  void followRestLengths();
   void followBody();
   void takeOverMasses();
   void followCut() const;
@@ -232,6 +233,7 @@ class WETCLOTH_EXPORT WetCloth {
   double m_massAsleep = 0;  // when Bullet let the body sleep, 0 while it is awake [kg]
   bool m_wasPresent = true;
   bool m_hasStepped = false;
+  bool m_hasJustBegun = false;  // the body's first step is this one or was the last
   bool m_isReplaced = false;  // by another body at the same address
 };
 
