@@ -121,8 +121,8 @@ void WetCloth::followBody() {
   takeOverMasses();
 }
 
-// A body's first step sets the lengths of its links to what they are then: that is Bullet's way to begin, and no change of
-// the shape at rest by the application.
+// A body's first step sets the lengths of its links to what they are then: that is Bullet's way to begin, and no change
+// of the shape at rest by the application.
 void WetCloth::followRestLengths() {
   const bool beginsNow = m_body.m_bUpdateRtCst && !m_hasStepped;
   if (m_hasJustBegun && !beginsNow) m_restLengths.remember();
