@@ -234,7 +234,7 @@ class WETCLOTH_EXPORT WetCloth {
   bool m_wasPresent = true;
   bool m_hasStepped = false;
   bool m_hasJustBegun = false;  // the body's first step is this one or was the last
-  bool m_isReplaced = false;  // by another body at the same address
+  bool m_isReplaced = false;    // by another body at the same address
 };
 
 }  // namespace WETCLOTH_PRECISION
