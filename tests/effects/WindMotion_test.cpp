@@ -64,7 +64,7 @@ TEST_P(WindMotionInWorld, FallThroughLinearDragFollowsTheClosedForm) {
     scene.cloth().add<Wind>(air(Law::linear));
     scene.cloth().setSaturation(saturation);
     const double tau = 0.150 * (1 + 0.84 * saturation) / 0.256;
-    // Within one substep, as the issue asks; first-order integration is half a substep late or early.
+    // Within one substep: first-order integration is half a substep late or early.
     EXPECT_LT(worstTimeError(scene, [&](double t) { return linearFall(t, tau); }), kSubstep) << saturation;
   }
 }
@@ -115,7 +115,7 @@ TEST_P(WindMotionInWorld, ClothDriftsWithTheWindInTheEnd) {
   EXPECT_NEAR(momentum(scene.body())[1] / freeMass(scene.body()), 3, kIsDouble ? 3 * std::exp(-9.9) : 0.035);
 }
 
-// A cloth of light nodes in a gale with a large step, as the issue asks: 1e-5 kg per node, 50 m/s, 1/30 s.
+// A cloth of light nodes in a gale with a large step: 1e-5 kg per node, 50 m/s, 1/30 s.
 TEST_P(WindMotionInWorld, LightNodesNeverOutrunAGaleFromTheFront) {
   ClothScene scene(GetParam(), kNoGravity, levelPatch(10, 1, 81 * 1e-5));
   scene.addBulletSpringsForStep(1.0 / 30);
