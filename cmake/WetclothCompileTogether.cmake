@@ -7,5 +7,7 @@ set(WETCLOTH_FILES_PER_OBJECT 1 CACHE STRING "Source files that are compiled tog
 function(wetcloth_compile_together target)
   if(WETCLOTH_FILES_PER_OBJECT GREATER 1)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${WETCLOTH_FILES_PER_OBJECT})
+    # GCC collects garbage less often: an eighth of the time for a fifth more memory, 2 GB for the largest object.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
   endif()
 endfunction()

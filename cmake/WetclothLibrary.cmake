@@ -1,7 +1,13 @@
 # SPDX-License-Identifier: Zlib
-# WETCLOTH_LIBRARY_OPTIONS: for the libraries alone. The tests are mostly in them, and so are worth optimizing there and not
-# in all that is compiled once and run once.
-set(WETCLOTH_LIBRARY_OPTIONS "" CACHE STRING "Compiler options for the libraries alone")
+# WETCLOTH_LIBRARY_OPTIONS: the tests spend their time in the libraries and in a few loops beside them, which are worth
+# optimizing; what is compiled once and run once is not.
+set(WETCLOTH_LIBRARY_OPTIONS "" CACHE STRING "Compiler options for the libraries, and for loops that the tests wait for")
+
+# wetcloth_compile_as_library(<source>...): such loops
+function(wetcloth_compile_as_library)
+  # A precompiled header serves one level of optimization.
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${WETCLOTH_LIBRARY_OPTIONS}" SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
 
 # wetcloth_add_library(<target> EXPORT_NAME <name> EXPORTS <macro> <source>...)
 #

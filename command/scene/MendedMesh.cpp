@@ -17,7 +17,7 @@ using wetcloth::MeshReport;
 
 constexpr std::size_t mostNodesOfMesh = 1000000;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t toSize(int i) { return static_cast<std::size_t>(i); }
 
 void remark(TriangleMesh& mesh, std::size_t count, const std::string& one, const std::string& many) {
   if (count > 0) mesh.remarks.push_back(std::to_string(count) + " " + (count == 1 ? one : many));
@@ -31,10 +31,10 @@ std::string inMetres(double length) {
 
 void renumber(TriangleMesh& mesh) {
   for (auto& corners : mesh.triangles) {
-    for (int& corner : corners) corner = mesh.nodeOfVertex[at(corner)];
+    for (int& corner : corners) corner = mesh.nodeOfVertex[toSize(corner)];
   }
   for (auto& [name, nodes] : mesh.groups) {
-    for (int& node : nodes) node = mesh.nodeOfVertex[at(node)];
+    for (int& node : nodes) node = mesh.nodeOfVertex[toSize(node)];
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
@@ -46,12 +46,12 @@ void joinCoincidentVertices(TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const int first = report.firstAt[i];
     const bool isFirst = first == static_cast<int>(i);
-    mesh.nodeOfVertex.push_back(isFirst ? static_cast<int>(nodes.size()) : mesh.nodeOfVertex[at(first)]);
+    mesh.nodeOfVertex.push_back(isFirst ? static_cast<int>(nodes.size()) : mesh.nodeOfVertex[toSize(first)]);
     if (isFirst) nodes.push_back(mesh.vertices[i]);
   }
   mesh.vertices = std::move(nodes);
   const std::string within = " (within " + inMetres(report.tolerance) + ") and joined to it";
-  remark(mesh, at(report.coincidentNodes), "vertex is in the place of another" + within,
+  remark(mesh, toSize(report.coincidentNodes), "vertex is in the place of another" + within,
          "vertices are in the place of another" + within);
   renumber(mesh);
 }
@@ -74,9 +74,9 @@ std::string verticesOf(const TriangleMesh& mesh, const std::vector<bool>& isMean
   std::string text;
   const std::size_t count = mesh.nodeOfVertex.size();
   for (std::size_t i = 0; i < count; ++i) {
-    if (!isMeant[at(mesh.nodeOfVertex[i])]) continue;
+    if (!isMeant[toSize(mesh.nodeOfVertex[i])]) continue;
     std::size_t last = i;
-    while (last + 1 < count && isMeant[at(mesh.nodeOfVertex[last + 1])]) ++last;
+    while (last + 1 < count && isMeant[toSize(mesh.nodeOfVertex[last + 1])]) ++last;
     text += (text.empty() ? "" : ", ") + std::to_string(i + 1);
     if (last > i) text += (last == i + 1 ? ", " : " to ") + std::to_string(last + 1);
     i = last;
@@ -88,7 +88,7 @@ std::string verticesOf(const TriangleMesh& mesh, const std::vector<bool>& isMean
 void requireAreaAtEveryNode(const TriangleMesh& mesh) {
   std::vector<bool> isBare(mesh.vertices.size(), true);
   for (const auto& corners : mesh.triangles) {
-    for (const int corner : corners) isBare[at(corner)] = false;
+    for (const int corner : corners) isBare[toSize(corner)] = false;
   }
   const auto bare = std::count(isBare.begin(), isBare.end(), true);
   if (bare == 0) return;

@@ -40,7 +40,7 @@ class Sheets {
     body->m_cfg.collisions = flags;
     bullet.add(*body);
     if (bullet.isDeformable()) {
-      bullet.addForce(*body, std::make_unique<btDeformableMassSpringForce>(btScalar(5), btScalar(0)));
+      bullet.addForce(*body, bulletSprings(5));
     }
     return body;
   }

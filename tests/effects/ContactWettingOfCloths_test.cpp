@@ -27,7 +27,7 @@ class TwoTowels {
     m_upper->setActivationState(DISABLE_DEACTIVATION);
     scene.bullet().add(*m_upper);
     if (scene.bullet().isDeformable()) {
-      scene.bullet().addForce(*m_upper, std::make_unique<btDeformableMassSpringForce>(btScalar(5), btScalar(0)));
+      scene.bullet().addForce(*m_upper, bulletSprings(5));
     }
     scene.addBulletSprings(5);
     upperCloth = &scene.wet().add(*m_upper);

@@ -113,7 +113,7 @@ class StateScene {
   }
   void addBulletSprings() {
     if (!m_isDeformable) return;
-    m_bullet.addForce(*m_bodies.back(), std::make_unique<btDeformableMassSpringForce>(btScalar(20), btScalar(0.05)));
+    m_bullet.addForce(*m_bodies.back(), bulletSprings(20, 0.05));
   }
   void addRigid(std::unique_ptr<btCollisionShape> shape, double mass, const btVector3& position) {
     m_rigid.push_back(std::make_unique<RigidBody>(m_bullet, std::move(shape), btScalar(mass), position));

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "tests/support/BulletSprings.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/Patches.h"
 #include "tests/support/SoftBodies.h"
 
-#include <BulletSoftBody/btDeformableMassSpringForce.h>
-
 #include <memory>
 
 namespace wetcloth_test {
-
-/// What the damping of Bullet's own springs acts on: how fast a spring's ends part, which keeps the angular momentum,
-/// or any velocity of one end against the other.
-enum class SpringDamping { alongSpring, everyDirection };
 
 /// A Bullet world with one soft body in it, taken out before both are destroyed.
 class BodyScene {
@@ -46,9 +41,7 @@ class BodyScene {
   /// Bullet's own springs, which a cloth in the deformable world needs: without them it is a cloud of triangles that
   /// the air crumples. Does nothing in the other worlds, whose links hold a cloth together.
   void addBulletSprings(double stiffness, double damping = 0, SpringDamping acts = SpringDamping::alongSpring) {
-    if (!m_bullet.isDeformable()) return;
-    m_bullet.addForce(*m_body, std::make_unique<btDeformableMassSpringForce>(btScalar(stiffness), btScalar(damping),
-                                                                             acts == SpringDamping::alongSpring));
+    if (m_bullet.isDeformable()) m_bullet.addForce(*m_body, bulletSprings(stiffness, damping, acts));
   }
 
  private:
