@@ -9,9 +9,9 @@
 #include "command/run/DripRecord.h"
 #include "command/run/FrameWriter.h"
 #include "command/run/RunReport.h"
-#include "command/run/SoundState.h"
 #include "command/scene/SceneOptions.h"
 #include "command/scene/SceneWorld.h"
+#include "command/scene/SoundState.h"
 
 #include <algorithm>
 #include <chrono>
@@ -66,7 +66,7 @@ class Run {
   void step() {
     m_wetTime.step(m_wet);
     ++m_steps;
-    requireSound(m_wet, m_steps);
+    requireSound(m_wet);
     m_drips.note(m_wet);
     if (!m_plain.blowUp()) m_plainTime.step(m_plain);
   }
