@@ -2,10 +2,10 @@
 #include "command/cost/CostRun.h"
 
 #include "command/cli/Errors.h"
+#include "command/scene/SoundState.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace command {
 namespace {
@@ -39,7 +39,6 @@ CostRun::CostRun(const Scene& scene) : m_scene(scene) {
   for (const std::string& effect : m_effects) m_lanes.push_back({CostWorld::timed(scene, effect), {}});
   // All first steps pay for what is set up once.
   for (Lane& lane : m_lanes) stepLane(lane, 0);
-  m_stepsDone += unmeasured;
 }  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): it loses sight of what the lanes' unique_ptr own
 
 // No world always follows the same other one: it would always find the caches as that one leaves them.
@@ -51,8 +50,7 @@ void CostRun::turn(int most) {
     stepLane(m_lanes[(place + m_turns / 2) % count], measured);
   }
   ++m_turns;
-  m_stepsDone += unmeasured + measured;
-  noticeNonFinite(measured);
+  noticeBlowUp(measured);
 }
 
 void CostRun::stepLane(Lane& lane, int measured) {
@@ -64,17 +62,15 @@ void CostRun::stepLane(Lane& lane, int measured) {
   }
 }
 
-/// Numbers that are not finite take another time to compute: the turn that brought them does not count. Without its
-/// springs, say, a cloth may not last as long as the scene does, and what was measured before stands.
-void CostRun::noticeNonFinite(int measured) {
+/// What has blown up takes another time to compute: the turn that brought it does not count. Without its springs, say,
+/// a cloth may not last as long as the scene does, and what was measured before stands.
+void CostRun::noticeBlowUp(int measured) {
   for (std::size_t i = 0; i < m_lanes.size(); ++i) {
-    if (m_lanes[i].world.world().isFinite()) continue;
-    char when[64];
-    std::snprintf(when, sizeof when, "became non-finite within %d substeps (%g s)", m_stepsDone,
-                  m_stepsDone * m_scene.step);
-    const std::string what = "the state " + labelOf(i) + " " + when;
+    const auto blowUp = describeBlowUp(m_lanes[i].world.world());
+    if (!blowUp) continue;
+    const std::string what = labelOf(i) + " " + *blowUp;
     const bool isTheScene = i == 2 || i == 3;
-    if (isTheScene || steps() <= measured) throw RunError(m_scene.file + ": " + what + "; try more substeps");
+    if (isTheScene || steps() <= measured) throw RunError(m_scene.file + ": " + what);
     if (m_obstacle.empty()) m_obstacle = what;
   }
   if (m_obstacle.empty()) return;

@@ -21,9 +21,9 @@ class CostRun {
   /// @param scene of one substep a step
   explicit CostRun(const Scene& scene);
 
-  /// One turn of each world, of at most `most` measured steps. Throws RunError when the scene's state is not finite.
+  /// One turn of each world, of at most `most` measured steps. Throws RunError when the scene blows up.
   void turn(int most);
-  /// Why no more can be measured: a world that lacks an effect has become non-finite. Empty: more can.
+  /// Why no more can be measured: a world that lacks an effect has blown up. Empty: more can.
   const std::string& obstacle() const { return m_obstacle; }
   /// Before each turn's measured steps: the caches hold another world when it begins.
   static constexpr int unmeasured = 1;
@@ -51,7 +51,7 @@ class CostRun {
   };
 
   void stepLane(Lane& lane, int measured);
-  void noticeNonFinite(int measured);
+  void noticeBlowUp(int measured);
   std::string labelOf(std::size_t lane) const;
 
   const Scene& m_scene;
@@ -59,7 +59,6 @@ class CostRun {
   std::vector<Lane> m_lanes;
   std::string m_obstacle;
   std::size_t m_turns = 0;
-  int m_stepsDone = 0;
 };
 
 }  // namespace command

@@ -25,6 +25,9 @@ const Words sRgbFilm{"-vf",
                      "-color_trc",
                      "iec61966-2-1"};
 
+// Else a .webm has a random number in it: equal pictures make equal files.
+const Words sameBytes{"-fflags", "+bitexact"};
+
 Words plus(Words words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
   return words;
@@ -63,7 +66,8 @@ Words commandFor(const std::string& path, int width, int height, double framesPe
                     "-i",
                     "pipe:0"};
   const std::string file = std::filesystem::path(path).is_absolute() ? path : "./" + path;
-  return plus(plus(input, encoderFor(std::filesystem::path(path).extension().string())), {file});
+  const Words encoder = encoderFor(std::filesystem::path(path).extension().string());
+  return plus(plus(plus(input, encoder), sameBytes), {file});
 }
 
 }  // namespace

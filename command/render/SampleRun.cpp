@@ -5,8 +5,8 @@
 #include "command/cli/Progress.h"
 #include "command/render/FrameSampler.h"
 #include "command/run/RunSeries.h"
-#include "command/run/SoundState.h"
 #include "command/scene/SceneWorld.h"
+#include "command/scene/SoundState.h"
 
 #include <algorithm>
 #include <cmath>
@@ -148,7 +148,7 @@ pictures::FrameSequence sampleRun(const Scene& scene, const std::vector<double>&
   const int lastStep = std::min(steps, static_cast<int>(std::ceil(times.back() / scene.step - roundOff)));
   for (int step = 1; step <= lastStep; ++step) {
     world.step();
-    requireSound(world, step);
+    requireSound(world);
     frames.offer(world, sampler, step);
     progress.update(static_cast<double>(step) / lastStep);
   }

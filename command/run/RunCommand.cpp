@@ -9,9 +9,9 @@
 #include "command/run/DripRecord.h"
 #include "command/run/FrameWriter.h"
 #include "command/run/RunReport.h"
-#include "command/run/SoundState.h"
 #include "command/scene/SceneOptions.h"
 #include "command/scene/SceneWorld.h"
+#include "command/scene/SoundState.h"
 
 #include <algorithm>
 #include <chrono>
@@ -34,11 +34,21 @@ struct RunOptions : SceneOptions {
   std::string resume;      ///< file; empty: from the start
 };
 
-double secondsOf(SceneWorld& world) {
-  const auto start = std::chrono::steady_clock::now();
-  world.step();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
+/// The wall clock's time of a world's steps: of those that this program made, for a checkpoint holds no times.
+class StepTime {
+ public:
+  void step(SceneWorld& world) {
+    const auto start = std::chrono::steady_clock::now();
+    world.step();
+    m_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    ++m_steps;
+  }
+  double meanMilliseconds() const { return 1e3 * m_seconds / std::max(1, m_steps); }
+
+ private:
+  double m_seconds = 0;
+  int m_steps = 0;
+};
 
 /// Steps the scene and, beside it, the same scene in plain Bullet. The two take turns, so that whatever else the
 /// machine does slows both.
@@ -51,18 +61,14 @@ class Run {
   const DripRecord& drips() const { return m_drips; }
   int steps() const { return m_steps; }
   void finish() { m_wet.finish(); }
-  RunTimes times() const {
-    return {m_steps, 1e3 * m_wetSeconds / std::max(1, m_steps), 1e3 * m_plainSeconds / std::max(1, m_plainSteps)};
-  }
+  RunTimes times() const { return {m_steps, m_wetTime.meanMilliseconds(), m_plainTime.meanMilliseconds()}; }
 
   void step() {
-    m_wetSeconds += secondsOf(m_wet);
+    m_wetTime.step(m_wet);
     ++m_steps;
-    requireSound(m_wet, m_steps);
+    requireSound(m_wet);
     m_drips.note(m_wet);
-    if (m_plain.blowUp()) return;
-    m_plainSeconds += secondsOf(m_plain);
-    ++m_plainSteps;
+    if (!m_plain.blowUp()) m_plainTime.step(m_plain);
   }
 
   /// Fills in how far the run is. Throws RunError when this scene's state cannot be saved.
@@ -74,20 +80,13 @@ class Run {
       throw RunError(std::string("wetcloth: --checkpoint: ") + error.what());
     }
     checkpoint.state = state.str();
-    checkpoint.progress = {{"steps", m_steps},
-                           {"plain_steps", m_plainSteps},
-                           {"wet_seconds", m_wetSeconds},
-                           {"plain_seconds", m_plainSeconds},
-                           {"drips", m_drips.progress()}};
+    checkpoint.progress = {{"steps", m_steps}, {"drips", m_drips.progress()}};
   }
   /// Goes on from there; plain Bullet, which is there for its time alone, from where the wet cloth is. Throws
   /// wetcloth::StateError, or a JSON exception.
   void restore(const Checkpoint& checkpoint) {
     const nlohmann::ordered_json& progress = checkpoint.progress;
     m_steps = progress.at("steps").get<int>();
-    m_plainSteps = progress.at("plain_steps").get<int>();
-    m_wetSeconds = progress.at("wet_seconds").get<double>();
-    m_plainSeconds = progress.at("plain_seconds").get<double>();
     m_drips.goOnFrom(progress.at("drips"));
     std::istringstream state(checkpoint.state);
     m_wet.restore(state, m_steps);
@@ -98,10 +97,9 @@ class Run {
   SceneWorld m_wet;
   SceneWorld m_plain;
   DripRecord m_drips;
+  StepTime m_wetTime;
+  StepTime m_plainTime;
   int m_steps = 0;
-  int m_plainSteps = 0;
-  double m_wetSeconds = 0;
-  double m_plainSeconds = 0;
 };
 
 void resume(Run& run, const std::string& path, const nlohmann::ordered_json& identity) {

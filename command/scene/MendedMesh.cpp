@@ -120,6 +120,8 @@ TriangleMesh mended(TriangleMesh mesh) {
   const MeshReport left = wetcloth::checkMesh(mesh.vertices, mesh.triangles);
   remark(mesh, left.nonManifoldEdges.size(), "edge has more than two faces", "edges have more than two faces");
   if (left.parts > 1) mesh.remarks.push_back("it is in " + std::to_string(left.parts) + " pieces that nothing joins");
+  remark(mesh, toSize(left.facePieces - left.parts), "part hangs on by a vertex, not by an edge",
+         "parts hang on by a vertex, not by an edge");
   return mesh;
 }
 

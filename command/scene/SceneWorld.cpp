@@ -187,10 +187,10 @@ double SceneWorld::sagOf(std::size_t cloth) const {
   return mass * static_cast<double>(m_scene.gravity.length()) / stiffness;
 }
 
-std::optional<std::string> SceneWorld::blowUp() const {
+std::optional<std::string> SceneWorld::blowUp(double otherPush) const {
   const double gravity = static_cast<double>(m_scene.gravity.length());
   for (std::size_t i = 0; i < m_bodies.size(); ++i) {
-    const double speed = m_scene.cloths[i].fastestPush() + gravity * (time() + substep());
+    const double speed = m_scene.cloths[i].fastestPush() + otherPush + gravity * (time() + substep());
     const auto found = findBlowUp(*m_bodies[i], {speed, substep(), sagOf(i)});
     if (found) return "/cloths/" + std::to_string(i) + ": " + *found;
   }

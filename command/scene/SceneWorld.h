@@ -46,6 +46,7 @@ class SceneWorld {
   const Scene& scene() const { return m_scene; }
   /// Simulated [s].
   double time() const { return m_steps * m_scene.step; }
+  int steps() const { return m_steps; }  ///< of the scene, since its start
   const std::vector<btSoftBody*>& bodies() const { return m_bodies; }
   /// The wet cloths, in the order of the scene; none in plain Bullet.
   const std::vector<wetcloth::WetCloth*>& cloths() const { return m_cloths; }
@@ -57,7 +58,8 @@ class SceneWorld {
   /// Whether all positions and velocities are finite.
   bool isFinite() const;
   /// "/cloths/0: node 7 moves with ...": what of the cloths has blown up; none while all are sound.
-  std::optional<std::string> blowUp() const;
+  /// @param otherPush  of what pushes the cloths and is not in the scene [m/s]
+  std::optional<std::string> blowUp(double otherPush = 0) const;
 
  private:
   void addCloth(const ClothScene& cloth);

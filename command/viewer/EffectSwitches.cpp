@@ -38,7 +38,8 @@ EffectSwitches::EffectSwitches(const command::Scene& scene, const command::Effec
     Row row{m_clock.addPart(), {}, {}};
     for (const command::ClothScene& cloth : scene.cloths) {
       const command::EffectScene* own = find(cloth, offered.key);
-      row.perCloth.push_back(own != nullptr ? own->addTo : named ? command::AddEffect() : offered.byDefault(scene));
+      const command::EffectScene other{offered.key, named ? command::AddEffect() : offered.byDefault(scene)};
+      row.perCloth.push_back(own != nullptr ? *own : other);
     }
     m_rows.push_back(std::move(row));
   }
@@ -51,7 +52,7 @@ void EffectSwitches::equip(command::Scene& scene) {
     std::vector<command::EffectScene>& effects = scene.cloths[cloth].effects;
     effects = {beginning(Stage::observe), beginning(Stage::sources), commitEnd()};
     for (std::size_t i = 0; i < m_rows.size(); ++i) {
-      if (m_switches[i].isOn && m_rows[i].perCloth[cloth]) effects.push_back(effectScene(i, cloth));
+      if (m_switches[i].isOn && m_rows[i].perCloth[cloth].addTo) effects.push_back(effectScene(i, cloth));
     }
   }
 }
@@ -61,9 +62,11 @@ void EffectSwitches::restore() {
 }
 
 command::EffectScene EffectSwitches::effectScene(std::size_t index, std::size_t cloth) {
-  return {m_switches[index].key, [this, index, cloth](WetCloth& wet, const command::Colliders& colliders) -> Effect& {
-            return place(index, cloth, wet, colliders);
-          }};
+  command::EffectScene effect = m_rows[index].perCloth[cloth];
+  effect.addTo = [this, index, cloth](WetCloth& wet, const command::Colliders& colliders) -> Effect& {
+    return place(index, cloth, wet, colliders);
+  };
+  return effect;
 }
 
 command::EffectScene EffectSwitches::beginning(Stage stage) {
@@ -82,7 +85,7 @@ command::EffectScene EffectSwitches::commitEnd() {
 Effect& EffectSwitches::place(std::size_t index, std::size_t clothIndex, WetCloth& cloth,
                               const command::Colliders& colliders) {
   Row& row = m_rows[index];
-  const auto& addTo = row.perCloth[clothIndex];
+  const command::AddEffect& addTo = row.perCloth[clothIndex].addTo;
   Effect* effect = &addTo(cloth, colliders);
   // Bullet's collision detection lies between the stages before and `contact`, so effects there need a beginning; only
   // an effect that was added tells its stage.
@@ -118,7 +121,7 @@ void EffectSwitches::turn(std::size_t index, bool on, command::SceneWorld& world
   try {
     for (std::size_t i = 0; i < world.cloths().size(); ++i) {
       if (!on) removeFrom(*world.cloths()[i], m_rows[index]);
-      if (on && m_rows[index].perCloth[i]) place(index, i, *world.cloths()[i], world.colliders());
+      if (on && m_rows[index].perCloth[i].addTo) place(index, i, *world.cloths()[i], world.colliders());
     }
   } catch (const std::invalid_argument& refused) {
     turned.isOn = false;

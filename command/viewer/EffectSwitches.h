@@ -55,7 +55,7 @@ class EffectSwitches {
   };
   struct Row {
     EffectClock::Part part;
-    std::vector<command::AddEffect> perCloth;  // empty: not for this cloth
+    std::vector<command::EffectScene> perCloth;  // nothing to add: not for this cloth
     std::vector<Placed> placed;
   };
 

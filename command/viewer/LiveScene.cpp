@@ -2,6 +2,7 @@
 #include "command/viewer/LiveScene.h"
 
 #include "command/cli/Errors.h"
+#include "command/scene/SoundState.h"
 
 #include "bullet_wetcloth/Require.h"
 
@@ -79,10 +80,10 @@ void LiveScene::step() {
   if (m_plain) m_plain->step([this](btScalar dt) { pull(Side::plainBullet, dt); });
   ++m_steps;
   note();
-  if (m_wet->isFinite()) return;
-  char text[120];
-  std::snprintf(text, sizeof text, "the state became non-finite at t = %g s; reset, and try more substeps", time());
-  m_failure = text;
+  const double windSet = m_levers.wind ? static_cast<double>(m_levers.wind->length()) : 0;
+  if (const auto blowUp = command::describeBlowUp(*m_wet, windSet + Grip::fastest)) {
+    m_failure = *blowUp + "; then reset";
+  }
 }
 
 void LiveScene::pull(Side side, btScalar dt) {

@@ -35,7 +35,9 @@ TEST(Consumer, AndThisPartOfTheProgramTellTheSameEffectsApart) {
   EXPECT_NE(cloth.find<wetcloth::Rain>(), nullptr);
   const consumer::Towel towel(cloth);
   EXPECT_EQ(towel.wind(), nullptr);
-  const wetcloth::Wind& wind = cloth.add<wetcloth::Wind>({btVector3(1, 0, 0)});
+  wetcloth::Wind::Parameters parameters;
+  parameters.velocity = btVector3(1, 0, 0);
+  const wetcloth::Wind& wind = cloth.add<wetcloth::Wind>(parameters);
   EXPECT_EQ(towel.wind(), &wind);
   EXPECT_TRUE(towel.runsAt(wetcloth::Stage::forces));
   EXPECT_FALSE(towel.runsAt(wetcloth::Stage::contact));

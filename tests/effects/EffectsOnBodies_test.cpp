@@ -2,10 +2,14 @@
 // Every effect that touches bodies, on every kind of body, through all that may happen to it; and the table of
 // docs/bodies.md.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/support/Bodies.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/DocumentedTable.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Measures.h"
 
-#include <cstdlib>
-#include <fstream>
 #include <sstream>
 
 namespace wetcloth_test::effects_on_bodies_test {
@@ -76,8 +80,7 @@ TEST_P(EffectsOnBodies, WetFrictionIsThatOfABodyWithTheProduct) {
 
 WETCLOTH_IN_EVERY_WORLD(EffectsOnBodies);
 
-// --- docs/bodies.md
-// ---------------------------------------------------------------------------------------------------
+// --- docs/bodies.md -------------------------------------------------------------------------------------------------
 
 const char* amount(double share) { return share > 0.9 ? "all" : share > 0.02 ? "part" : "none"; }
 
@@ -128,23 +131,7 @@ std::string tableOfBodies() {
   return table.str();
 }
 
-// With WETCLOTH_WRITE_DOCS set it writes the table anew.
-TEST(TableOfBodies, IsThatOfTheDocumentation) {
-  const std::string file = WETCLOTH_SOURCE_DIR "/docs/bodies.md";
-  const std::string first = "<!-- bodies -->\n";
-  std::ostringstream read;
-  read << std::ifstream(file).rdbuf();
-  const std::string text = read.str();
-  const std::size_t begin = text.find(first) + first.size();
-  const std::size_t end = text.find("<!-- end of bodies -->\n");
-  ASSERT_NE(end, std::string::npos);
-  const std::string table = tableOfBodies();
-  if (std::getenv("WETCLOTH_WRITE_DOCS") != nullptr) {
-    std::ofstream(file) << text.substr(0, begin) << table << text.substr(end);
-    return;
-  }
-  EXPECT_EQ(text.substr(begin, end - begin), table) << "WETCLOTH_WRITE_DOCS=1 with this test writes it anew";
-}
+TEST(TableOfBodies, IsThatOfTheDocumentation) { expectDocumented("bodies.md", "bodies", tableOfBodies()); }
 
 }  // namespace
 }  // namespace wetcloth_test::effects_on_bodies_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "tests/support/ClothScene.h"
 #include "tests/support/ContactScene.h"
 
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>

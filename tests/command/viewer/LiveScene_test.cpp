@@ -223,5 +223,34 @@ TEST(LiveScene, AStateThatIsNotFiniteEndsTheRunAndAResetBeginsAnother) {
   EXPECT_EQ(live.steps(), 3);
 }
 
+TEST(LiveScene, AClothThatBlowsUpEndsTheRun) {
+  command::Scene scene = hangingTowel(WorldKind::deformable);
+  scene.cloths[0].springs.stiffness = 2000;
+  LiveScene live(scene);
+  run(live, 120);
+  EXPECT_EQ(live.failure().rfind("the cloth blew up in step ", 0), 0u) << live.failure();
+  for (const char* word : {"t = ", "/cloths/0: node ", "substeps", "spring_stiffness_n_m", "reset"}) {
+    EXPECT_NE(live.failure().find(word), std::string::npos) << word << ": " << live.failure();
+  }
+  EXPECT_LT(live.steps(), 120);
+  live.reset();
+  EXPECT_EQ(live.failure(), "");
+}
+
+// Neither is in the scene: what pushes is the wind that was set, and the hand.
+TEST(LiveScene, AClothThatIsBlownOrPulledHardHasNotBlownUp) {
+  LiveScene live(soakingTowel());
+  live.setWind(btVector3(0, 0, 1000));
+  run(live, 60);
+  EXPECT_EQ(live.failure(), "");
+  live.restore();
+  ASSERT_TRUE(live.grab(rayAt(0.5, 1.3)));
+  for (int i = 0; i < 60; ++i) {
+    live.dragTo(btVector3(0, btScalar(i % 2 == 0 ? 50 : -50), 0));
+    live.step();
+  }
+  EXPECT_EQ(live.failure(), "");
+}
+
 }  // namespace
 }  // namespace wetcloth_test::live_scene_test

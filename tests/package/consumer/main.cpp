@@ -44,7 +44,9 @@ struct Scene {
     towel = &wet->add(*cloth, wetcloth::Fabric::cotton());
     towel->add<wetcloth::Absorption>();
     towel->add<wetcloth::Diffusion>();
-    towel->add<wetcloth::Wind>({btVector3(4, 0, 1)});
+    wetcloth::Wind::Parameters wind;
+    wind.velocity = btVector3(4, 0, 1);
+    towel->add<wetcloth::Wind>(wind);
     towel->add<wetcloth::HookeSprings>();
     towel->add<wetcloth::CollisionAudit>();
   }
