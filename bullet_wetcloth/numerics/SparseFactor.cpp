@@ -24,11 +24,12 @@ void SparseFactor::compute(const Eigen::SparseMatrix<double>& matrix) {
     std::iota(m_permutation.begin(), m_permutation.end(), 0);
     return;
   }
+  const Eigen::VectorXd diagonal = factor.vectorD();  // a copy at each call
   m_rows.reserve(static_cast<std::size_t>(lower.nonZeros()));
   m_values.reserve(static_cast<std::size_t>(lower.nonZeros()));
   for (Eigen::Index j = 0; j < size; ++j) {
     m_permutation[static_cast<std::size_t>(j)] = factor.permutationP().indices()[j];
-    m_inverseDiagonal[static_cast<std::size_t>(j)] = 1 / factor.vectorD()[j];
+    m_inverseDiagonal[static_cast<std::size_t>(j)] = 1 / diagonal[j];
     for (Eigen::SparseMatrix<double>::InnerIterator entry(lower, j); entry; ++entry) {
       if (entry.row() == j) continue;
       m_rows.push_back(static_cast<int>(entry.row()));
