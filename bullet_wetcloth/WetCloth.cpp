@@ -3,6 +3,8 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetClothWorld.h"
+#include "bullet_wetcloth/mesh/FaceTree.h"
+#include "bullet_wetcloth/mesh/MeshCheck.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 #include "bullet_wetcloth/water/DryMass.h"
 
@@ -95,6 +97,12 @@ bool WetCloth::isAwake(const Step& step) {
 
 void WetCloth::commitExchange() {
   if (m_water.movedSinceCommit() && !m_watch.nodesChanged()) commit();
+}
+
+void WetCloth::spareBulletTheFaceTree() {
+  const int flag = m_deformable ? btSoftBody::fCollision::SDF_RD : btSoftBody::fCollision::VF_SS;
+  const bool makesTree = m_body.m_bUpdateRtCst && (m_body.m_cfg.collisions & flag);
+  if (makesTree && !checkMesh(m_body).bulletBuildsFaceTree()) buildFaceTree(m_body);
 }
 
 void WetCloth::stepContacts(const Step& step) {

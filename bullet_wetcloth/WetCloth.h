@@ -199,6 +199,9 @@ class WETCLOTH_EXPORT WetCloth {
   void step(const Step& step);
   /// After the steps of all cloths: what another one gave or took since this one's own commit.
   void commitExchange();
+  /// After that: Bullet makes the tree of faces in the step after links, faces or masses were set, and does not come
+  /// back from a mesh of several parts. There it gets ours.
+  void spareBulletTheFaceTree();
   /// Between Bullet's collision detection and its solve: contact. Never throws.
   void stepContacts(const Step& step);
 

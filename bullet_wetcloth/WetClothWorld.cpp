@@ -173,7 +173,9 @@ void WetClothWorld::preTick(btScalar dt) {
     if (noticePresence(*cloth)) cloth->step(stepOf(cloth->m_body, dt, m_time));
   }
   for (const auto& cloth : m_cloths) {
-    if (cloth->m_wasPresent) cloth->commitExchange();
+    if (!cloth->m_wasPresent) continue;
+    cloth->commitExchange();
+    cloth->spareBulletTheFaceTree();
   }
   m_time += static_cast<double>(dt);
 }

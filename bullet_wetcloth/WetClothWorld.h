@@ -51,6 +51,9 @@ class WETCLOTH_EXPORT WetClothWorld {
   /// Throws std::invalid_argument when the body is not in the world, was added before, has no nodes or a mass that
   /// is not finite, is a reduced deformable one, or when a field of the fabric is out of range. A cloth whose body was
   /// deleted and that another body is found in the place of, is forgotten.
+  ///
+  /// Where Bullet would hang in a step that makes the body's tree of faces anew (MeshReport::bulletBuildsFaceTree()),
+  /// as in the first one and after setMass() or a cut, that step begins with our buildFaceTree().
   WetCloth& add(btSoftBody& body, const Fabric& fabric = Fabric::cotton());
   /// The same; throws std::invalid_argument on null.
   WetCloth& add(btSoftBody* body, const Fabric& fabric = Fabric::cotton());
