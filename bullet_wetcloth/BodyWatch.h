@@ -9,7 +9,7 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 /// Notices that a body was cut or refined: that its nodes, links or faces changed in number. And that it entered its
-/// world anew.
+/// world anew, or lost it.
 class WETCLOTH_EXPORT BodyWatch {
  public:
   /// The body, as it is now; it must outlive this.
@@ -32,6 +32,9 @@ class WETCLOTH_EXPORT BodyWatch {
     m_entry = entry;
     return isNew;
   }
+  /// Whether the world that it was in was deleted: that takes its entry in the broadphase from it, and leaves it the
+  /// place in the world's list, which it loses when it is taken out of a world.
+  bool lostItsWorld() const { return !m_body.getBroadphaseHandle() && m_body.getWorldArrayIndex() >= 0; }
   /// As last remembered.
   int nodes() const { return m_nodes; }
   /// Takes the body as it is now for the known one.

@@ -3,6 +3,8 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetClothWorld.h"
+#include "bullet_wetcloth/mesh/FaceTree.h"
+#include "bullet_wetcloth/mesh/MeshCheck.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 #include "bullet_wetcloth/water/DryMass.h"
 
@@ -44,6 +46,7 @@ Effect& WetCloth::add(std::unique_ptr<Effect> effect, const void* type) {
 }
 
 void WetCloth::remove(Effect& effect) {
+  m_world.noticeDeletion(*this);
   m_effects.remove(effect);
   m_world.shareTick();
 }
@@ -96,6 +99,12 @@ void WetCloth::commitExchange() {
   if (m_water.movedSinceCommit() && !m_watch.nodesChanged()) commit();
 }
 
+void WetCloth::spareBulletTheFaceTree() {
+  const int flag = m_deformable ? btSoftBody::fCollision::SDF_RD : btSoftBody::fCollision::VF_SS;
+  const bool makesTree = m_body.m_bUpdateRtCst && (m_body.m_cfg.collisions & flag);
+  if (makesTree && !checkMesh(m_body).bulletBuildsFaceTree()) buildFaceTree(m_body);
+}
+
 void WetCloth::stepContacts(const Step& step) {
   if (!m_effects.has(Stage::contact) || !(step.dt > 0) || !m_body.isActive()) return;
   if (m_watch.hasChanged()) adaptToBody();
@@ -114,6 +123,8 @@ bool WetCloth::isOfThisBody() {
 }
 
 void WetCloth::followBody() {
+  m_world.noticeDeletion(*this);
+  m_world.requireAttached();
   if (m_world.isInWorld(m_body) && !isOfThisBody()) {
     reject("body", "is another one than was added, at its address: add() it to the WetClothWorld");
   }
@@ -136,6 +147,7 @@ void WetCloth::takeOverMasses() {
 
 // An application reads right after a cut, too.
 void WetCloth::followCut() const {
+  m_world.noticeDeletion(*this);
   if (!m_world.isInWorld(m_body) || !m_watch.nodesChanged()) return;
   WetCloth& self = const_cast<WetCloth&>(*this);
   if (self.isOfThisBody()) self.adaptToBody();

@@ -199,6 +199,9 @@ class WETCLOTH_EXPORT WetCloth {
   void step(const Step& step);
   /// After the steps of all cloths: what another one gave or took since this one's own commit.
   void commitExchange();
+  /// After that: Bullet makes the tree of faces in the step after links, faces or masses were set, and does not come
+  /// back from a mesh of several parts. There it gets ours.
+  void spareBulletTheFaceTree();
   /// Between Bullet's collision detection and its solve: contact. Never throws.
   void stepContacts(const Step& step);
 
@@ -209,6 +212,9 @@ class WETCLOTH_EXPORT WetCloth {
   /// Whether the body, which is in the world, is the one that was added. One that came back may be another that an
   /// allocator has put at its address: it is the same if it has stepped, or is in all as we left it.
   bool isOfThisBody();
+  /// Whether the world was deleted with the body in it. A body that left the world may have been deleted, and is not
+  /// looked at; of one that was deleted since the last step, against the rules, other memory hardly passes.
+  bool lostItsWorld() const { return m_wasPresent && !m_watch.nodesChanged() && m_watch.lostItsWorld(); }
   void followRestLengths();
   void followBody();
   void takeOverMasses();

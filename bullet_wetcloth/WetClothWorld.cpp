@@ -76,8 +76,10 @@ WetClothWorld::~WetClothWorld() {
 }
 
 void WetClothWorld::detach() {
+  noticeDeletion();
   for (const auto& cloth : m_cloths) {
-    if (isInWorld(cloth->m_body) && cloth->isOfThisBody()) cloth->m_effects.clear();
+    const bool isThere = m_substepHook ? isInWorld(cloth->m_body) && cloth->isOfThisBody() : cloth->lostItsWorld();
+    if (isThere) cloth->m_effects.clear();
   }
   m_cloths.clear();
   if (!m_substepHook) return;
@@ -88,13 +90,27 @@ void WetClothWorld::detach() {
 }
 
 void WetClothWorld::requireAttached() const {
-  if (!m_substepHook) reject("WetClothWorld", "is detached from its world");
+  if (!m_substepHook) reject("WetClothWorld", "is detached from its world, or that was deleted");
+}
+
+// Bullet tells nobody; but the bodies that were in the world show it.
+void WetClothWorld::noticeDeletion(const WetCloth& cloth) {
+  if (!m_substepHook || !cloth.lostItsWorld()) return;
+  m_substepHook.reset();
+  m_sharesTick = false;
+  log("wetcloth: the world was deleted before its WetClothWorld; destroy that first, or call its detach()");
+}
+
+void WetClothWorld::noticeDeletion() {
+  for (const auto& cloth : m_cloths) noticeDeletion(*cloth);
 }
 
 WetCloth& WetClothWorld::add(btSoftBody& body, const Fabric& fabric) {
+  if (const WetCloth* const known = find(body)) noticeDeletion(*known);
   requireAttached();
   requireValid(fabric);
-  if (!isInWorld(body)) reject("body", "is not in this world; add it to the world first");
+  if (BodyWatch(body).lostItsWorld() || !isInWorld(body))
+    reject("body", "is not in this world; add it to the world first");
   if (WetCloth* const known = find(body)) {
     if (known->isOfThisBody()) reject("body", "was added already");
     forget(*known);
@@ -117,6 +133,7 @@ void WetClothWorld::remove(btSoftBody& body) {
   const auto wraps = [&](const std::unique_ptr<WetCloth>& cloth) { return &cloth->body() == &body; };
   const auto position = std::find_if(m_cloths.begin(), m_cloths.end(), wraps);
   if (position == m_cloths.end()) reject("body", "was not added to this WetClothWorld");
+  noticeDeletion(**position);
   if (!isInWorld(body) || (*position)->isOfThisBody()) (*position)->m_effects.clear();
   m_cloths.erase(position);
   shareTick();
@@ -156,13 +173,15 @@ void WetClothWorld::preTick(btScalar dt) {
     if (noticePresence(*cloth)) cloth->step(stepOf(cloth->m_body, dt, m_time));
   }
   for (const auto& cloth : m_cloths) {
-    if (cloth->m_wasPresent) cloth->commitExchange();
+    if (!cloth->m_wasPresent) continue;
+    cloth->commitExchange();
+    cloth->spareBulletTheFaceTree();
   }
   m_time += static_cast<double>(dt);
 }
 
 void WetClothWorld::tick(btScalar dt) {
-  if (!(std::isfinite(dt) && dt > 0)) return;
+  if (!m_substepHook || !(std::isfinite(dt) && dt > 0)) return;
   for (const auto& cloth : m_cloths) {
     if (noticePresence(*cloth)) cloth->stepContacts(stepOf(cloth->m_body, dt, m_stepStart));
   }
@@ -170,7 +189,7 @@ void WetClothWorld::tick(btScalar dt) {
 
 // Bullet's tick callback is shared while a cloth needs it, and only then.
 void WetClothWorld::shareTick() {
-  if (m_hook != Hook::preTick) return;
+  if (m_hook != Hook::preTick || !m_substepHook) return;
   const auto needs = [](const std::unique_ptr<WetCloth>& cloth) { return cloth->m_effects.has(Stage::contact); };
   const bool isNeeded = std::any_of(m_cloths.begin(), m_cloths.end(), needs);
   if (isNeeded && !m_sharesTick) m_substepHook->take(SubstepHook::Slot::tick);
@@ -225,7 +244,10 @@ btVector3 WetClothWorld::gravityOf(const btSoftBody& body) const {
   return gravity * body.m_gravityFactor;
 }
 
-const btAlignedObjectArray<btSoftBody*>& WetClothWorld::softBodies() const { return *softBodiesOf(m_world); }
+const btAlignedObjectArray<btSoftBody*>& WetClothWorld::softBodies() const {
+  static const btAlignedObjectArray<btSoftBody*> none;
+  return m_substepHook ? *softBodiesOf(m_world) : none;
+}
 
 bool WetClothWorld::isInWorld(const btSoftBody& body) const {
   const btAlignedObjectArray<btSoftBody*>& bodies = softBodies();
@@ -242,13 +264,16 @@ void WetClothWorld::log(const std::string& message) const {
 }
 
 void WetClothWorld::save(std::ostream& stream) const {
+  WetClothWorld& self = *const_cast<WetClothWorld*>(this);  // which saving does not change
+  self.noticeDeletion();
   requireAttached();
   StateArchive archive(m_world);
-  const_cast<WetClothWorld*>(this)->transferState(archive);  // which changes nothing while saving
+  self.transferState(archive);
   StateEnvelope::write(stream, static_cast<std::uint32_t>(m_world.getWorldType()), archive.bytes());
 }
 
 void WetClothWorld::restore(std::istream& stream) {
+  noticeDeletion();
   requireAttached();
   StateArchive archive(m_world, StateEnvelope::read(stream, static_cast<std::uint32_t>(m_world.getWorldType())));
   transferState(archive);

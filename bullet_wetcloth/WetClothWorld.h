@@ -41,7 +41,8 @@ class WETCLOTH_EXPORT WetClothWorld {
   /// them.
   explicit WetClothWorld(btDynamicsWorld& world, Hook hook = Hook::preTick);
   /// As detach(), unless there are no cloths: then the world is not touched, and may be gone. Callbacks of a world that
-  /// is still there are put back when it next calls us.
+  /// is still there are put back when it next calls us. A world that was deleted before, with its bodies still there,
+  /// is noticed: it is not touched, effects give back what they changed, and a message says so.
   ~WetClothWorld();
   WetClothWorld(const WetClothWorld&) = delete;
   WetClothWorld& operator=(const WetClothWorld&) = delete;
@@ -50,12 +51,16 @@ class WETCLOTH_EXPORT WetClothWorld {
   /// Throws std::invalid_argument when the body is not in the world, was added before, has no nodes or a mass that
   /// is not finite, is a reduced deformable one, or when a field of the fabric is out of range. A cloth whose body was
   /// deleted and that another body is found in the place of, is forgotten.
+  ///
+  /// Where Bullet would hang in a step that makes the body's tree of faces anew (MeshReport::bulletBuildsFaceTree()),
+  /// as in the first one and after setMass() or a cut, that step begins with our buildFaceTree().
   WetCloth& add(btSoftBody& body, const Fabric& fabric = Fabric::cotton());
   /// The same; throws std::invalid_argument on null.
   WetCloth& add(btSoftBody* body, const Fabric& fabric = Fabric::cotton());
   /// Lets go of the world now, so that it and its bodies may be deleted in any order: removes the cloths, whose effects
   /// give back what they changed, and puts the application's callbacks back. Afterwards this object does nothing, its
-  /// destructor neither, and add(), save() and restore() throw std::invalid_argument.
+  /// destructor neither, and add(), save() and restore() throw std::invalid_argument. The same of a world that was
+  /// deleted before, as in the destructor.
   void detach();
 
   /// Forgets a cloth. The body keeps its present (wet) masses. Throws std::invalid_argument when it is not known.
@@ -76,7 +81,7 @@ class WETCLOTH_EXPORT WetClothWorld {
   btDynamicsWorld& world() { return m_world; }
   /// The same, to look at.
   const btDynamicsWorld& world() const { return m_world; }
-  /// All soft bodies of the world, wet or not.
+  /// All soft bodies of the world, wet or not; none once detached.
   const btAlignedObjectArray<btSoftBody*>& softBodies() const;
   /// Whether a body is one of these. Only its address is looked at: it may have been deleted.
   bool isInWorld(const btSoftBody& body) const;
@@ -126,6 +131,8 @@ class WETCLOTH_EXPORT WetClothWorld {
   void shareTick();
   void transferState(StateArchive& archive);
   void requireAttached() const;
+  void noticeDeletion(const WetCloth& cloth);
+  void noticeDeletion();
   bool noticePresence(WetCloth& cloth) const;
   Step stepOf(const btSoftBody& body, btScalar dt, double time) const;
   btVector3 gravityOf(const btSoftBody& body) const;
@@ -134,7 +141,7 @@ class WETCLOTH_EXPORT WetClothWorld {
 
   btDynamicsWorld& m_world;
   Hook m_hook;
-  std::unique_ptr<SubstepHook> m_substepHook;  // null once detached
+  std::unique_ptr<SubstepHook> m_substepHook;  // null once detached, or the world was seen to be gone
   std::vector<std::unique_ptr<WetCloth>> m_cloths;
   std::function<void(const std::string&)> m_log;
   double m_time = 0;

@@ -34,12 +34,13 @@ TEST_P(BodyComesAndGoes, DeletedWhileWeKnowIt) {
   EXPECT_EQ(messages.size(), 1u);
 }
 
-TEST_P(BodyComesAndGoes, DeletedAndWeLeaveWithoutAnotherStep) {
+TEST_P(BodyComesAndGoes, ForgottenAndDeletedAndWeLeaveWithoutAnotherStep) {
   BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog({});
   addEverything(wet.add(scene.body()));
   scene.bullet().step(5);
+  wet.remove(scene.body());
   scene.deleteBody();
 }
 

@@ -2,14 +2,18 @@
 // Who goes first: the world, its bodies, or we. A WetClothWorld that was detached, or has no cloths left, touches
 // nothing when it goes. Memory checkers watch these.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/support/BodyScene.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
 #include "tests/support/Patches.h"
 
 #include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace wetcloth_test::detach_test {
 
@@ -21,7 +25,7 @@ struct Parts {
       : bullet(std::make_unique<BulletWorld>(kind)), body(hangingPatch(4).build(bullet->info())) {
     bullet->add(*body);
     wet = std::make_unique<wetcloth::WetClothWorld>(bullet->world());
-    wet->setLog({});
+    wet->setLog([this](const std::string& message) { messages.push_back(message); });
     cloth = &wet->add(*body);
     cloth->add<wetcloth::Absorption>();
     if (!bullet->isDeformable()) cloth->add<wetcloth::WetFriction>();  // takes the tick callback
@@ -32,11 +36,17 @@ struct Parts {
     wet.reset();
     if (bullet && body) bullet->remove(*body);
   }
+  void deleteWorldBeforeAll() {
+    bullet->deleteWorld();
+    bullet.reset();
+  }
+  bool hasItsOwnMaterials() const { return body->m_links[0].m_material == body->m_materials[0]; }
   void deleteBody() {
     if (bullet) bullet->remove(*body);
     body.reset();
   }
 
+  std::vector<std::string> messages;
   std::unique_ptr<BulletWorld> bullet;
   std::unique_ptr<btSoftBody> body;
   std::unique_ptr<wetcloth::WetClothWorld> wet;
@@ -102,6 +112,73 @@ TEST_P(Detach, IsNotNeededWithoutCloths) {
     parts.bullet.reset();
     if (!bodyFirst) parts.deleteBody();
     parts.wet.reset();
+  }
+}
+
+// --- the world went first, its bodies are there ---------------------------------------------------------------------
+
+TEST_P(Detach, AfterTheWorldWasDeletedBodiesGetBackWhatWasTheirs) {
+  for (const bool byDetach : {true, false}) {
+    Parts parts(GetParam());
+    ASSERT_FALSE(parts.hasItsOwnMaterials());
+    parts.deleteWorldBeforeAll();
+    byDetach ? parts.wet->detach() : parts.wet.reset();
+    EXPECT_TRUE(parts.hasItsOwnMaterials());
+    ASSERT_EQ(parts.messages.size(), 1u);
+    EXPECT_NE(parts.messages[0].find("the world was deleted before its WetClothWorld"), std::string::npos);
+  }
+}
+
+TEST_P(Detach, AfterTheWorldWasDeletedClothsMayBeRemoved) {
+  Parts parts(GetParam());
+  parts.deleteWorldBeforeAll();
+  parts.cloth->remove(*parts.cloth->find<wetcloth::HookeSprings>());
+  EXPECT_TRUE(parts.hasItsOwnMaterials());
+  parts.wet->remove(*parts.body);
+  EXPECT_TRUE(parts.wet->cloths().empty());
+  parts.body.reset();
+  parts.wet.reset();
+  EXPECT_EQ(parts.messages.size(), 1u);
+}
+
+TEST_P(Detach, AfterTheWorldWasDeletedReadingGoesOnAndChangingThrows) {
+  Parts parts(GetParam());
+  const double saturation = parts.cloth->saturation(3);
+  parts.deleteWorldBeforeAll();
+  EXPECT_EQ(parts.cloth->saturation(3), saturation);
+  EXPECT_EQ(parts.cloth->nodeCount(), 16);
+  EXPECT_EQ(parts.wet->find(*parts.body), parts.cloth);
+  EXPECT_FALSE(parts.wet->isInWorld(*parts.body));
+  EXPECT_FALSE(parts.wet->isHooked());
+  EXPECT_FALSE(parts.wet->isTickHooked());
+  parts.wet->preTick(btScalar(0.01));
+  parts.wet->tick(btScalar(0.01));
+  EXPECT_THROW(parts.cloth->setSaturation(1), std::invalid_argument);
+  EXPECT_THROW(parts.cloth->add<wetcloth::Wind>(), std::invalid_argument);
+  EXPECT_THROW(parts.wet->add(*parts.body), std::invalid_argument);
+  std::stringstream stream;
+  EXPECT_THROW(parts.wet->save(stream), std::invalid_argument);
+  EXPECT_THROW(parts.wet->restore(stream), std::invalid_argument);
+  EXPECT_EQ(parts.messages.size(), 1u);
+}
+
+// save() and add() may be the first to be called.
+TEST_P(Detach, AfterTheWorldWasDeletedTheFirstCallMayBeAny) {
+  {
+    Parts parts(GetParam());
+    parts.deleteWorldBeforeAll();
+    std::stringstream stream;
+    EXPECT_THROW(parts.wet->save(stream), std::invalid_argument);
+  }
+  {
+    Parts parts(GetParam());
+    parts.deleteWorldBeforeAll();
+    EXPECT_THROW(parts.wet->add(*parts.body), std::invalid_argument);
+  }
+  {
+    Parts parts(GetParam());
+    parts.deleteWorldBeforeAll();
+    EXPECT_THROW(parts.cloth->setSaturation(1), std::invalid_argument);
   }
 }
 

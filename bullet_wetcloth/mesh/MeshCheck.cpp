@@ -178,7 +178,8 @@ int facePieces(const std::vector<Side>& sides, std::size_t faces) {
 
 using Pairs = std::vector<std::array<int, 2>>;
 
-void findParts(const std::vector<Triangle>& triangles, const Pairs& links, MeshReport& report) {
+// Without a body there are no links to look at.
+void findParts(const std::vector<Triangle>& triangles, const Pairs* links, MeshReport& report) {
   const std::size_t nodes = toSize(report.nodes);
   Sets parts(nodes), linked(nodes);
   std::vector<bool> isUsed(nodes, false);
@@ -188,7 +189,7 @@ void findParts(const std::vector<Triangle>& triangles, const Pairs& links, MeshR
       isUsed[toSize(corner)] = true;
     }
   }
-  for (const auto& [a, b] : links) {
+  for (const auto& [a, b] : links ? *links : Pairs()) {
     parts.join(a, b);
     linked.join(a, b);
     isUsed[toSize(a)] = isUsed[toSize(b)] = true;
@@ -196,11 +197,11 @@ void findParts(const std::vector<Triangle>& triangles, const Pairs& links, MeshR
   for (int i = 0; i < report.nodes; ++i) {
     if (!isUsed[toSize(i)]) report.strayNodes.push_back(i);
     if (isUsed[toSize(i)] && parts.of(i) == i) ++report.parts;
-    if (!links.empty() && linked.of(i) == i) ++report.nodePieces;
+    if (links && linked.of(i) == i) ++report.nodePieces;
   }
 }
 
-MeshReport check(const std::vector<btVector3>& positions, const std::vector<Triangle>& triangles, const Pairs& links) {
+MeshReport check(const std::vector<btVector3>& positions, const std::vector<Triangle>& triangles, const Pairs* links) {
   MeshReport report;
   report.nodes = static_cast<int>(positions.size());
   report.faces = static_cast<int>(triangles.size());
@@ -226,7 +227,7 @@ MeshReport check(const std::vector<btVector3>& positions, const std::vector<Tria
 }  // namespace
 
 MeshReport checkMesh(const std::vector<btVector3>& positions, const std::vector<Triangle>& triangles) {
-  return check(positions, triangles, {});
+  return check(positions, triangles, nullptr);
 }
 
 MeshReport checkMesh(const btSoftBody& body) {
@@ -242,7 +243,7 @@ MeshReport checkMesh(const btSoftBody& body) {
     const auto& nodes = body.m_links[k].m_n;
     links.push_back({nodeIndex(body, nodes[0]), nodeIndex(body, nodes[1])});
   }
-  return check(positions, triangles, links);
+  return check(positions, triangles, &links);
 }
 
 std::string MeshReport::summary() const {

@@ -29,11 +29,13 @@ struct WETCLOTH_EXPORT MeshReport {
   std::vector<std::array<int, 2>> nonManifoldEdges;  ///< of more than two faces, doubled ones not counted; a < b
   int parts = 0;                                     ///< that no shared node and no link joins; stray nodes are none
   int facePieces = 0;  ///< sets of faces that hang together by edges: a bow tie is one part of two pieces
-  int nodePieces = 0;  ///< sets of nodes that hang together by links; stray nodes are one each; 0 without links
+  int nodePieces =
+      0;  ///< sets of nodes that hang together by a body's links; stray nodes are one each; 0 without a body
 
   /// Whether btSoftBody::initializeFaceTree() comes to an end: Bullet 3.24 pairs neighbours until one is left, which
   /// never happens where not all faces hang together by edges and all nodes by links. It is called in the deformable
-  /// world with SDF_RD, elsewhere with VF_SS, and by rayTest(); see buildFaceTree().
+  /// world with SDF_RD, elsewhere with VF_SS, and by rayTest(); see buildFaceTree(). A WetClothWorld sees to its
+  /// cloths.
   bool bulletBuildsFaceTree() const { return facePieces <= 1 && nodePieces <= 1; }
 
   /// "2 parts that nothing joins; 3 coincident nodes": empty where there is nothing to tell.

@@ -2,10 +2,17 @@
 // Bullet's tree of faces for cloth in several parts, where its own initializeFaceTree() never returns.
 
 #include "bullet_wetcloth/mesh/FaceTree.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "bullet_wetcloth/mesh/ClothPatch.h"
 #include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
+#include "tests/support/Patches.h"
+#include "tests/support/SoftBodies.h"
 
+#include <cmath>
+#include <memory>
 #include <set>
+#include <utility>
 
 namespace wetcloth_test::face_tree_test {
 namespace {
@@ -76,6 +83,61 @@ TEST_P(FaceTreeTest, ClothInTwoPartsRunsAndCollides) {
     EXPECT_GT(place.y(), -1) << i;  // 4.9 m lower if nothing held it
   }
   for (btSoftBody* body : {below.get(), above.get()}) world.remove(*body);
+}
+
+// The flag by which Bullet makes the tree in the next step.
+int treeFlags(const BulletWorld& world) {
+  using Flag = btSoftBody::fCollision;
+  return world.isDeformable() ? Flag::SDF_RD | Flag::SDF_RDN : Flag::SDF_RS | Flag::VF_SS;
+}
+
+std::unique_ptr<btSoftBody> withoutLinks(btSoftBodyWorldInfo& info) {
+  return triangles({btVector3(0, 0, 0), btVector3(1, 0, 0), btVector3(0, 0, 1)}, {1, 1, 1}, {{0, 1, 2}})(info);
+}
+
+// A step that Bullet does not come back from would hang the test: so the tree is looked for before.
+TEST_P(FaceTreeTest, AClothThatBulletHangsOnGetsOneInItsFirstStep) {
+  for (const bool hasLinks : {true, false}) {
+    BulletWorld world(GetParam());
+    const auto body = hasLinks ? twoParts(world.info(), 0) : withoutLinks(world.info());
+    world.add(*body);
+    {
+      wetcloth::WetClothWorld wet(world.world());
+      wet.add(*body).add<wetcloth::Absorption>();
+      body->m_cfg.collisions = treeFlags(world);                // later than add()
+      for (const btScalar mass : {btScalar(7), btScalar(9)}) {  // before the first step, and while it runs
+        body->setTotalMass(mass);
+        wet.preTick(btScalar(1) / 240);
+        ASSERT_FALSE(body->m_bUpdateRtCst);
+        ASSERT_NE(body->m_fdbvnt, nullptr);
+        world.step(20);
+      }
+      for (int i = 0; i < body->m_nodes.size(); ++i) EXPECT_TRUE(std::isfinite(body->m_nodes[i].m_x.length2()));
+    }
+    world.remove(*body);
+  }
+}
+
+TEST_P(FaceTreeTest, WhatBulletDoesByItselfIsLeftToIt) {
+  BulletWorld world(GetParam());
+  const auto whole = squarePatch(4).build(world.info());
+  const auto withoutFlag = twoParts(world.info(), 5);
+  whole->m_cfg.collisions = treeFlags(world);
+  withoutFlag->m_cfg.collisions = btSoftBody::fCollision::SDF_RS;
+  for (btSoftBody* body : {whole.get(), withoutFlag.get()}) {
+    body->setTotalMass(7);
+    world.add(*body);
+  }
+  {
+    wetcloth::WetClothWorld wet(world.world());
+    for (btSoftBody* body : {whole.get(), withoutFlag.get()}) {
+      wet.add(*body).add<wetcloth::Absorption>();
+      wet.preTick(btScalar(1) / 240);
+      EXPECT_TRUE(body->m_bUpdateRtCst);
+      EXPECT_EQ(body->m_fdbvnt, nullptr);
+    }
+  }
+  for (btSoftBody* body : {whole.get(), withoutFlag.get()}) world.remove(*body);
 }
 
 WETCLOTH_IN_EVERY_WORLD(FaceTreeTest);

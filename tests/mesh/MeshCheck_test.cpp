@@ -94,6 +94,8 @@ TEST(MeshCheck, OfABodyLooksAtItsLinksToo) {
   EXPECT_TRUE(checkMesh(*patch.build(info)).bulletBuildsFaceTree());
   const btScalar masses[] = {1, 1, 1, 1};
   btSoftBody body(&info, 4, kSquare.data(), masses);
+  EXPECT_EQ(checkMesh(body).nodePieces, 4);
+  EXPECT_FALSE(checkMesh(body).bulletBuildsFaceTree());
   body.appendLink(0, 1);
   body.appendLink(1, 2);
   MeshReport rope = checkMesh(body);

@@ -59,7 +59,9 @@ class BulletWorld {
     info().m_sparsesdf.Initialize();
   }
   // Bullet's own destructor looks at every body that is still in the world, and a test's bodies may be gone by then.
-  ~BulletWorld() { m_world->getCollisionObjectArray().clear(); }
+  ~BulletWorld() {
+    if (m_world) m_world->getCollisionObjectArray().clear();
+  }
   BulletWorld(const BulletWorld&) = delete;
   BulletWorld& operator=(const BulletWorld&) = delete;
 
@@ -92,6 +94,8 @@ class BulletWorld {
     m_forces.push_back(std::move(force));
   }
   void remove(btSoftBody& body) { m_world->removeCollisionObject(&body); }
+  /// Deletes the world with the bodies in it, which must be there; nothing else is to be called afterwards.
+  void deleteWorld() { m_world.reset(); }
 
   /// `count` substeps of exactly dt.
   void step(int count, btScalar dt = btScalar(1) / 240) {
