@@ -68,10 +68,10 @@ void Shelter::project(const std::vector<btVector3>& positions, const std::vector
 // With n triangles, width w and height h, cells of sqrt(w h / n), and at least max(w, h) / n, are no more than
 // (w / s + 1) (h / s + 1) <= n + 2 n + 1.
 void Shelter::layGrid() {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double right = -kInfinity;
-  double top = -kInfinity;
-  m_left = m_bottom = kInfinity;
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  double right = -kFar;
+  double top = -kFar;
+  m_left = m_bottom = kFar;
   for (const Point& point : m_centroids) {
     if (!std::isfinite(point.u + point.v)) continue;
     m_left = std::min(m_left, point.u);

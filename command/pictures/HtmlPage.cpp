@@ -19,7 +19,7 @@ namespace pictures {
 namespace {
 
 /// The picture that the first view is fitted to; the page steps back when its own is narrower.
-constexpr float aspect = 1.25F;
+constexpr float windowAspect = 1.25F;
 
 std::string deflated(const std::string& bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
@@ -76,7 +76,7 @@ nlohmann::json jsonOf(const std::vector<Series>& series) {
 }
 
 nlohmann::json jsonOf(const View& view) {
-  return {{"eye", view.eye}, {"target", view.target}, {"fieldOfView", view.fieldOfView}, {"aspect", aspect}};
+  return {{"eye", view.eye}, {"target", view.target}, {"fieldOfView", view.fieldOfView}, {"aspect", windowAspect}};
 }
 
 /// All text that is not ASCII, and what could end the element that it is in, as escapes.
@@ -123,7 +123,7 @@ void writeHtml(const FrameSequence& sequence, const std::string& path) {
   const std::string bytes = packed(sequence, head);
   head["scenery"] = jsonOf(sequence.scenery);
   head["series"] = jsonOf(sequence.series);
-  head["view"] = jsonOf(fitView(sequence.scenery, sequence.frames, aspect));
+  head["view"] = jsonOf(fitView(sequence.scenery, sequence.frames, windowAspect));
   head["shaders"] = shaders();
   std::string page(embedded::page_html);
   // From the end of the page to its start: a title may look like a place.
