@@ -2,6 +2,7 @@
 #include "bullet_wetcloth/audit/SweptFaces.h"
 
 #include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/Layers.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <cmath>
@@ -100,9 +101,10 @@ void splitAtMedian(int* first, int* middle, int* last, const std::vector<btVecto
 void SweptFaces::build(const btSoftBody& body) {
   std::vector<btVector3> centres;
   std::vector<int> order;
+  const std::vector<bool> doubled = areDoubled(nodesOfFaces(body));
   for (int f = 0; f < body.m_faces.size(); ++f) {
     centres.push_back(centreOf(body.m_faces[f]));
-    order.push_back(f);
+    if (!doubled[toSize(f)]) order.push_back(f);
   }
   build(body, std::move(order), &centres);
 }
@@ -227,11 +229,11 @@ SweptBox SweptFaces::boxOfPatch(const Patch& patch) const {
 void SweptFaces::transferState(StateArchive& archive, const btSoftBody& body) {
   std::vector<int> order = m_order;
   std::vector<Position> positions = m_positions;
-  order.resize(static_cast<std::size_t>(body.m_faces.size()));
+  order.resize(layersOf(body).size());
   positions.resize(static_cast<std::size_t>(body.m_nodes.size()));
-  std::vector<bool> isKnown(order.size(), false);
+  std::vector<bool> isKnown(static_cast<std::size_t>(body.m_faces.size()), false);
   for (int& face : order) {
-    face = archive.place(face, static_cast<int>(order.size()), "face of an audit");
+    face = archive.place(face, body.m_faces.size(), "face of an audit");
     if (isKnown[static_cast<std::size_t>(face)]) archive.fail("a face is in an audit twice");
     isKnown[static_cast<std::size_t>(face)] = true;
   }

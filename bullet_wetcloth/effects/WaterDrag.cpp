@@ -135,7 +135,7 @@ void WaterDrag::accumulate(const btSoftBody& body, const Step& step) {
   const auto isImmersed = [this](int node) { return m_nodes[static_cast<std::size_t>(node)].isImmersed; };
   for (const RestMesh::Triangle& triangle : m_mesh->triangles()) {
     const std::array<int, 3>& corners = triangle.nodes;
-    if (std::none_of(corners.begin(), corners.end(), isImmersed)) continue;
+    if (triangle.isDoubled || std::none_of(corners.begin(), corners.end(), isImmersed)) continue;
     const auto position = [&](std::size_t k) { return body.m_nodes[corners[k]].m_x; };
     resist(triangle, flatTriangle(position(0), position(1), position(2)), resistance);
   }

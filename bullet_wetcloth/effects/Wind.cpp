@@ -3,7 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
-#include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/Layers.h"
 #include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/numerics/FluidResistance.h"
 #include "bullet_wetcloth/state/StateArchive.h"
@@ -110,12 +110,7 @@ void Wind::attach(WetCloth& cloth) {
   requireFaces("Wind", body);
   m_nodes.resize(static_cast<std::size_t>(body.m_nodes.size()));
   m_drag.resize(m_nodes.size());
-  m_triangles.resize(static_cast<std::size_t>(body.m_faces.size()));
-  for (std::size_t f = 0; f < m_triangles.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      m_triangles[f][k] = nodeIndex(body, body.m_faces[static_cast<int>(f)].m_n[k]);
-    }
-  }
+  m_triangles = layersOf(body);
   const std::vector<double> areas = nodeAreas(body);
   m_nodeAreas.assign(areas.begin(), areas.end());
 }

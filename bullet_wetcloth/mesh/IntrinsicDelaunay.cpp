@@ -250,6 +250,7 @@ std::vector<MeasuredTriangle> measuredTriangles(const RestMesh& mesh) {
   std::vector<MeasuredTriangle> triangles;
   triangles.reserve(mesh.triangles().size());
   for (const RestMesh::Triangle& triangle : mesh.triangles()) {
+    if (triangle.isDoubled) continue;
     const auto& edges = triangle.edges;
     triangles.push_back(
         {triangle.nodes, {lengthOf(mesh, edges[0]), lengthOf(mesh, edges[1]), lengthOf(mesh, edges[2])}});

@@ -23,7 +23,7 @@ struct WeightedEdge {
   double weight;
 };
 
-/// The triangles of a cloth at rest.
+/// The triangles of a cloth at rest, each layer once.
 std::vector<MeasuredTriangle> measuredTriangles(const RestMesh& mesh);
 
 /// The same in the metric of an orthotropic diffusivity, in which diffusion is isotropic: a side along the warp is

@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/Layers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,18 +125,11 @@ bool isDegenerate(const std::vector<btVector3>& positions, const Triangle& corne
 }
 
 std::vector<int> doubled(const std::vector<Triangle>& triangles) {
-  std::vector<std::pair<Triangle, int>> sorted;
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    Triangle corners = triangles[f];
-    std::sort(corners.begin(), corners.end());
-    sorted.emplace_back(corners, static_cast<int>(f));
-  }
-  std::sort(sorted.begin(), sorted.end());
+  const std::vector<bool> isDoubled = areDoubled(triangles);
   std::vector<int> faces;
-  for (std::size_t k = 1; k < sorted.size(); ++k) {
-    if (sorted[k].first == sorted[k - 1].first) faces.push_back(sorted[k].second);
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    if (isDoubled[f]) faces.push_back(static_cast<int>(f));
   }
-  std::sort(faces.begin(), faces.end());
   return faces;
 }
 
@@ -233,17 +227,12 @@ MeshReport checkMesh(const std::vector<btVector3>& positions, const std::vector<
 MeshReport checkMesh(const btSoftBody& body) {
   std::vector<btVector3> positions;
   for (int i = 0; i < body.m_nodes.size(); ++i) positions.push_back(body.m_nodes[i].m_x);
-  std::vector<Triangle> triangles;
-  for (int f = 0; f < body.m_faces.size(); ++f) {
-    const auto& nodes = body.m_faces[f].m_n;
-    triangles.push_back({nodeIndex(body, nodes[0]), nodeIndex(body, nodes[1]), nodeIndex(body, nodes[2])});
-  }
   Pairs links;
   for (int k = 0; k < body.m_links.size(); ++k) {
     const auto& nodes = body.m_links[k].m_n;
     links.push_back({nodeIndex(body, nodes[0]), nodeIndex(body, nodes[1])});
   }
-  return check(positions, triangles, &links);
+  return check(positions, nodesOfFaces(body), &links);
 }
 
 std::string MeshReport::summary() const {

@@ -2,6 +2,7 @@
 #include "bullet_wetcloth/mesh/RestMesh.h"
 
 #include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/Layers.h"
 #include "bullet_wetcloth/mesh/TriangleArea.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -56,16 +57,19 @@ void RestMesh::takeLinkLengths(const btSoftBody& body, const RestLengths& length
 }
 
 void RestMesh::findTriangles(const btSoftBody& body) {
-  m_triangles.resize(static_cast<std::size_t>(body.m_faces.size()));
+  const std::vector<FaceNodes> faces = nodesOfFaces(body);
+  const std::vector<bool> doubled = areDoubled(faces);
+  m_triangles.resize(faces.size());
   for (std::size_t f = 0; f < m_triangles.size(); ++f) {
     Triangle& triangle = m_triangles[f];
-    for (std::size_t k = 0; k < 3; ++k) triangle.nodes[k] = nodeIndex(body, body.m_faces[static_cast<int>(f)].m_n[k]);
+    triangle.nodes = faces[f];
+    triangle.isDoubled = doubled[f];
     std::array<double, 3> lengths = {0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
       triangle.edges[k] = edgeBetween(triangle.nodes[(k + 1) % 3], triangle.nodes[(k + 2) % 3]);
       if (triangle.edges[k] >= 0) lengths[k] = m_edges[static_cast<std::size_t>(triangle.edges[k])].length;
     }
-    triangle.area = triangleArea(lengths[0], lengths[1], lengths[2]);
+    triangle.area = triangle.isDoubled ? 0 : triangleArea(lengths[0], lengths[1], lengths[2]);
     for (const int node : triangle.nodes) m_nodeAreas[static_cast<std::size_t>(node)] += triangle.area / 3;
   }
 }

@@ -31,7 +31,8 @@ class WETCLOTH_EXPORT RestMesh {
   struct Triangle {
     std::array<int, 3> nodes;  ///< as in the body's face
     std::array<int, 3> edges;  ///< edges[k] is opposite nodes[k]; numbers in edges(), -1 from a node to itself
-    double area;               ///< at rest [m^2]; 0 when the lengths make no triangle
+    double area;               ///< at rest [m^2]; 0 when the lengths make no triangle, and of a doubled one
+    bool isDoubled;            ///< has the nodes of an earlier one, either way round: the same layer of cloth
   };
   /// A range of node numbers.
   struct Neighbours {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/numerics/DropCatcher.h"
 
-#include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/Layers.h"
 #include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -48,12 +48,7 @@ void DropCatcher::attach(const char* effect, const btSoftBody& body) {
   m_positions.resize(nodes);
   m_drops.resize(nodes);
   m_uptake.reset(nodes);
-  m_triangles.resize(static_cast<std::size_t>(body.m_faces.size()));
-  for (std::size_t f = 0; f < m_triangles.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      m_triangles[f][k] = nodeIndex(body, body.m_faces[static_cast<int>(f)].m_n[k]);
-    }
-  }
+  m_triangles = layersOf(body);
 }
 
 btVector3 DropCatcher::centroid(std::size_t triangle) const {

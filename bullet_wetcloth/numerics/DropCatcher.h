@@ -35,7 +35,7 @@ class WETCLOTH_EXPORT DropCatcher {
   /// Throws std::invalid_argument that names the effect when the body has no faces.
   void attach(const char* effect, const btSoftBody& body);
 
-  /// The body's faces, as attached.
+  /// The body's faces, as attached; a face that is there twice, either way round, once.
   const std::vector<Triangle>& triangles() const { return m_triangles; }
   /// Where the nodes were at the last begin() [m].
   const std::vector<btVector3>& positions() const { return m_positions; }

@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/Layers.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -101,10 +102,10 @@ std::vector<double> shareOut(double amount, const std::vector<double>& weights, 
 
 std::vector<double> nodeAreas(const btSoftBody& body) {
   std::vector<double> areas(static_cast<std::size_t>(body.m_nodes.size()), 0);
-  for (int f = 0; f < body.m_faces.size(); ++f) {
-    btSoftBody::Node* const* corners = body.m_faces[f].m_n;
-    const btVector3 twice = (corners[1]->m_x - corners[0]->m_x).cross(corners[2]->m_x - corners[0]->m_x);
-    for (int k = 0; k < 3; ++k) areas[toSize(nodeIndex(body, corners[k]))] += static_cast<double>(twice.length()) / 6;
+  for (const FaceNodes& corners : layersOf(body)) {
+    const btVector3& origin = body.m_nodes[corners[0]].m_x;
+    const btVector3 twice = (body.m_nodes[corners[1]].m_x - origin).cross(body.m_nodes[corners[2]].m_x - origin);
+    for (const int corner : corners) areas[toSize(corner)] += static_cast<double>(twice.length()) / 6;
   }
   return areas;
 }
