@@ -109,10 +109,8 @@ double Cling::share(double saturation) const {
 void Cling::attach(WetCloth& cloth) {
   const std::string why = whyNoNodeContacts(cloth.body(), cloth.isInDeformableWorld());
   if (!why.empty()) reject("Cling", why);
-  m_areas.resize(cloth.water().size());
-  for (std::size_t i = 0; i < m_areas.size(); ++i)
-    m_areas[i] = contactArea(cloth.restMesh(), cloth.water(), cloth.fabric().arealDensity, i);
-  m_bonds.resize(m_areas.size());
+  cloth.restMesh();
+  m_bonds.resize(cloth.water().size());
 }
 
 void Cling::detach(WetCloth&) {
@@ -218,7 +216,8 @@ void Cling::hold(WetCloth& cloth, const Step& step, std::size_t i) {
   Bond& bond = m_bonds[i];
   btSoftBody::Node& node = cloth.body().m_nodes[static_cast<int>(i)];
   const btScalar dt = static_cast<btScalar>(step.dt);
-  const double strength = share(cloth.water().saturation(i)) * m_areas[i] * step.dt;
+  const double area = contactArea(cloth.restMesh(), cloth.water(), cloth.fabric().arealDensity, i);
+  const double strength = share(cloth.water().saturation(i)) * area * step.dt;
   const double pull = m_parameters.adhesion * strength;
   const btTransform& frame = bond.object->getWorldTransform();
   const btVector3 place = frame * bond.anchor;

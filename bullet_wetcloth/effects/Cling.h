@@ -118,7 +118,6 @@ class WETCLOTH_EXPORT Cling : public Effect {
   Parameters m_parameters;
   WetnessCurve m_curve;
   std::vector<Bond> m_bonds;  // by node
-  std::vector<double> m_areas;
   int m_bondCount = 0;
   double m_nextTime = -1;  // of a step without sleep in between [s]; < 0: none before
   long long m_nodesVisited = 0;

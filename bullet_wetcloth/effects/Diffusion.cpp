@@ -104,12 +104,17 @@ void Diffusion::attach(WetCloth& cloth) {
   requireFaces("Diffusion", cloth.body());
   m_cloth = &cloth;
   rememberWarp(cloth);
-  m_flow->reset(cloth.restMesh(), diffusionEdges(cloth.restMesh(), m_parameters, m_warpCoordinate));
+  layEdges();
   m_solver->reset(m_flow->nodeCount());
   m_potential.assign(m_flow->nodeCount(), 0);
+  m_steadyState.restart();
+}
+
+void Diffusion::layEdges() {
+  const RestMesh& mesh = m_cloth->restMesh();
+  m_flow->reset(mesh, diffusionEdges(mesh, m_parameters, m_warpCoordinate));
   m_fluxes.assign(m_flow->edges().size(), 0);
   m_substepFluxes.assign(m_flow->edges().size(), 0);
-  m_steadyState.restart();
 }
 
 void Diffusion::detach(WetCloth&) { m_cloth = nullptr; }
@@ -183,6 +188,8 @@ void Diffusion::flowInSubsteps(double dt) {
 }
 
 void Diffusion::transferState(StateArchive& archive) {
+  archive.array(m_warpCoordinate);
+  if (archive.isRestoring()) layEdges();  // the mesh at rest may be another one than when the effect was added here
   m_flow->transferState(archive);
   m_solver->transferState(archive, m_flow->edges(), m_flow->capacities());
   m_steadyState.transferState(archive);

@@ -86,6 +86,7 @@ class WETCLOTH_EXPORT Diffusion : public Effect {
 
  private:
   void conductAs(const Parameters& parameters);
+  void layEdges();
   void rememberWarp(WetCloth& cloth);
   void setPotential();
   void flowInSubsteps(double dt);

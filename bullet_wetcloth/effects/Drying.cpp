@@ -86,7 +86,7 @@ void Drying::attach(WetCloth& cloth) {
   requireFaces("Drying", cloth.body());
   const bool firstTime = m_carry.size() == 0;
   if (firstTime) m_parameters.exposure.requireSize("Drying.exposure", cloth.water().size());
-  m_areas = cloth.restMesh().nodeAreas();
+  m_mesh = &cloth.restMesh();
   m_carry.reset(cloth.water().size());
   m_nothingLeft.restart();
   m_hasNormals = false;
@@ -110,7 +110,7 @@ void Drying::apply(WetCloth& cloth, const Step& step) {
 
 double Drying::rateOf(const WetCloth& cloth, const Step& step, std::size_t node) const {
   const btSoftBody::Node& at = cloth.body().m_nodes[static_cast<int>(node)];
-  const double area = m_areas[node] * m_parameters.exposure.at(node, at.m_x, at.m_n);
+  const double area = m_mesh->nodeAreas()[node] * m_parameters.exposure.at(node, at.m_x, at.m_n);
   if (!(area > 0)) return 0;
   const btVector3 relative = m_parameters.air.at(at.m_x, step.time) - at.m_v;
   const double rate = m_stillAirRate * windFunction(static_cast<double>(relative.length())) * area;
@@ -130,7 +130,7 @@ bool Drying::dry(WetCloth& cloth, const Step& step, std::size_t node) {
   if (!(held > 0)) return true;
   const double rate = rateOf(cloth, step, node);
   // A function may expose the node later, and a speed that is not finite pass; anything else stays as it is.
-  if (!(rate > 0)) return m_areas[node] == 0 || isCovered(node);
+  if (!(rate > 0)) return m_mesh->nodeAreas()[node] == 0 || isCovered(node);
 
   const double exact = held - m_carry[node];
   const double leaving = dryingStep(exact, m_parameters.criticalSaturation * water.capacity(node), rate, step.dt);

@@ -80,8 +80,8 @@ class WETCLOTH_EXPORT Drying : public Effect {
   bool dry(WetCloth& cloth, const Step& step, std::size_t node);
 
   Parameters m_parameters;
-  double m_stillAirRate = 0;  // of all sides [kg/m^2/s]
-  std::vector<double> m_areas;
+  double m_stillAirRate = 0;         // of all sides [kg/m^2/s]
+  const RestMesh* m_mesh = nullptr;  // the cloth's own
   RoundingCarry m_carry;
   NothingLeft m_nothingLeft;
   bool m_hasNormals = false;

@@ -60,10 +60,15 @@ Seepage::~Seepage() = default;
 
 void Seepage::attach(WetCloth& cloth) {
   requireFaces("Seepage", cloth.body());
-  m_flow->reset(cloth.restMesh(), delaunayWeights(measuredTriangles(cloth.restMesh())));
+  m_mesh = &cloth.restMesh();
+  layEdges();
   for (auto* array : {&m_depths, &m_conductivity, &m_outflow}) array->assign(m_flow->nodeCount(), 0);
-  for (auto* array : {&m_fluxes, &m_substepFluxes}) array->assign(m_flow->edges().size(), 0);
   m_steadyState.restart();
+}
+
+void Seepage::layEdges() {
+  m_flow->reset(*m_mesh, delaunayWeights(measuredTriangles(*m_mesh)));
+  for (auto* array : {&m_fluxes, &m_substepFluxes}) array->assign(m_flow->edges().size(), 0);
 }
 
 void Seepage::apply(WetCloth& cloth, const Step& step) {
@@ -128,6 +133,7 @@ void Seepage::flow(double speed, double dt) {
 }
 
 void Seepage::transferState(StateArchive& archive) {
+  if (archive.isRestoring()) layEdges();  // the mesh at rest may be another one than when the effect was added here
   m_flow->transferState(archive);
   m_steadyState.transferState(archive);
   archive.value(m_nodesVisited, m_substeps);

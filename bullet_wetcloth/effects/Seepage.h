@@ -63,11 +63,13 @@ class WETCLOTH_EXPORT Seepage : public Effect {
   long long substeps() const { return m_substeps; }
 
  private:
+  void layEdges();
   void measureDepths(const WetCloth& cloth, const Step& step);
   double substepCount(double speed, double dt);
   void flow(double speed, double dt);
 
   Parameters m_parameters;
+  const RestMesh* m_mesh = nullptr;  // the cloth's own
   std::unique_ptr<EdgeFlow> m_flow;
   SteadyState m_steadyState{SteadyState::DependsOn::waterAndShape};
   std::vector<double> m_depths;         // of nodes along gravity [m]

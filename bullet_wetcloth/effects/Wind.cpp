@@ -310,7 +310,10 @@ void Wind::scatter(WetCloth& cloth, const Step& step) {
                         static_cast<btScalar>(total[2]));
 }
 
-void Wind::transferState(StateArchive& archive) { archive.value(m_totalForce, m_windAtCentre); }
+void Wind::transferState(StateArchive& archive) {
+  archive.array(m_nodeAreas);
+  archive.value(m_totalForce, m_windAtCentre);
+}
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth
