@@ -46,7 +46,6 @@ Effect& WetCloth::add(std::unique_ptr<Effect> effect, const void* type) {
 }
 
 void WetCloth::remove(Effect& effect) {
-  m_world.noticeDeletion(*this);
   m_effects.remove(effect);
   m_world.shareTick();
 }
@@ -123,7 +122,6 @@ bool WetCloth::isOfThisBody() {
 }
 
 void WetCloth::followBody() {
-  m_world.noticeDeletion(*this);
   m_world.requireAttached();
   if (m_world.isInWorld(m_body) && !isOfThisBody()) {
     reject("body", "is another one than was added, at its address: add() it to the WetClothWorld");
@@ -147,7 +145,6 @@ void WetCloth::takeOverMasses() {
 
 // An application reads right after a cut, too.
 void WetCloth::followCut() const {
-  m_world.noticeDeletion(*this);
   if (!m_world.isInWorld(m_body) || !m_watch.nodesChanged()) return;
   WetCloth& self = const_cast<WetCloth&>(*this);
   if (self.isOfThisBody()) self.adaptToBody();

@@ -212,9 +212,8 @@ class WETCLOTH_EXPORT WetCloth {
   /// Whether the body, which is in the world, is the one that was added. One that came back may be another that an
   /// allocator has put at its address: it is the same if it has stepped, or is in all as we left it.
   bool isOfThisBody();
-  /// Whether the world was deleted with the body in it. A body that left the world may have been deleted, and is not
-  /// looked at; of one that was deleted since the last step, against the rules, other memory hardly passes.
-  bool lostItsWorld() const { return m_wasPresent && !m_watch.nodesChanged() && m_watch.lostItsWorld(); }
+  /// Whether the world was deleted with the body in it. The body, which must be there, is looked at.
+  bool lostItsWorld() const { return m_wasPresent && m_watch.lostItsWorld(); }
   void followRestLengths();
   void followBody();
   void takeOverMasses();

@@ -76,10 +76,8 @@ WetClothWorld::~WetClothWorld() {
 }
 
 void WetClothWorld::detach() {
-  noticeDeletion();
   for (const auto& cloth : m_cloths) {
-    const bool isThere = m_substepHook ? isInWorld(cloth->m_body) && cloth->isOfThisBody() : cloth->lostItsWorld();
-    if (isThere) cloth->m_effects.clear();
+    if (isInWorld(cloth->m_body) && cloth->isOfThisBody()) cloth->m_effects.clear();
   }
   m_cloths.clear();
   if (!m_substepHook) return;
@@ -93,7 +91,8 @@ void WetClothWorld::requireAttached() const {
   if (!m_substepHook) reject("WetClothWorld", "is detached from its world, or that was deleted");
 }
 
-// Bullet tells nobody; but the bodies that were in the world show it.
+// Bullet tells nobody; but a body that was in the world shows it. It is only asked of one that the caller holds: others
+// may have been deleted, and only the world can tell of them.
 void WetClothWorld::noticeDeletion(const WetCloth& cloth) {
   if (!m_substepHook || !cloth.lostItsWorld()) return;
   m_substepHook.reset();
@@ -101,16 +100,13 @@ void WetClothWorld::noticeDeletion(const WetCloth& cloth) {
   log("wetcloth: the world was deleted before its WetClothWorld; destroy that first, or call its detach()");
 }
 
-void WetClothWorld::noticeDeletion() {
-  for (const auto& cloth : m_cloths) noticeDeletion(*cloth);
-}
-
 WetCloth& WetClothWorld::add(btSoftBody& body, const Fabric& fabric) {
   if (const WetCloth* const known = find(body)) noticeDeletion(*known);
   requireAttached();
   requireValid(fabric);
-  if (BodyWatch(body).lostItsWorld() || !isInWorld(body))
+  if (BodyWatch(body).lostItsWorld() || !isInWorld(body)) {
     reject("body", "is not in this world; add it to the world first");
+  }
   if (WetCloth* const known = find(body)) {
     if (known->isOfThisBody()) reject("body", "was added already");
     forget(*known);
@@ -264,16 +260,13 @@ void WetClothWorld::log(const std::string& message) const {
 }
 
 void WetClothWorld::save(std::ostream& stream) const {
-  WetClothWorld& self = *const_cast<WetClothWorld*>(this);  // which saving does not change
-  self.noticeDeletion();
   requireAttached();
   StateArchive archive(m_world);
-  self.transferState(archive);
+  const_cast<WetClothWorld*>(this)->transferState(archive);  // which changes nothing while saving
   StateEnvelope::write(stream, static_cast<std::uint32_t>(m_world.getWorldType()), archive.bytes());
 }
 
 void WetClothWorld::restore(std::istream& stream) {
-  noticeDeletion();
   requireAttached();
   StateArchive archive(m_world, StateEnvelope::read(stream, static_cast<std::uint32_t>(m_world.getWorldType())));
   transferState(archive);

@@ -41,8 +41,7 @@ class WETCLOTH_EXPORT WetClothWorld {
   /// them.
   explicit WetClothWorld(btDynamicsWorld& world, Hook hook = Hook::preTick);
   /// As detach(), unless there are no cloths: then the world is not touched, and may be gone. Callbacks of a world that
-  /// is still there are put back when it next calls us. A world that was deleted before, with its bodies still there,
-  /// is noticed: it is not touched, effects give back what they changed, and a message says so.
+  /// is still there are put back when it next calls us. Bodies that were deleted are not touched.
   ~WetClothWorld();
   WetClothWorld(const WetClothWorld&) = delete;
   WetClothWorld& operator=(const WetClothWorld&) = delete;
@@ -59,8 +58,7 @@ class WETCLOTH_EXPORT WetClothWorld {
   WetCloth& add(btSoftBody* body, const Fabric& fabric = Fabric::cotton());
   /// Lets go of the world now, so that it and its bodies may be deleted in any order: removes the cloths, whose effects
   /// give back what they changed, and puts the application's callbacks back. Afterwards this object does nothing, its
-  /// destructor neither, and add(), save() and restore() throw std::invalid_argument. The same of a world that was
-  /// deleted before, as in the destructor.
+  /// destructor neither, and add(), save() and restore() throw std::invalid_argument.
   void detach();
 
   /// Forgets a cloth. The body keeps its present (wet) masses. Throws std::invalid_argument when it is not known.
@@ -132,7 +130,6 @@ class WETCLOTH_EXPORT WetClothWorld {
   void transferState(StateArchive& archive);
   void requireAttached() const;
   void noticeDeletion(const WetCloth& cloth);
-  void noticeDeletion();
   bool noticePresence(WetCloth& cloth) const;
   Step stepOf(const btSoftBody& body, btScalar dt, double time) const;
   btVector3 gravityOf(const btSoftBody& body) const;

@@ -9,6 +9,8 @@
 #include "tests/support/Materials.h"
 #include "tests/support/Patches.h"
 
+#include <sstream>
+
 namespace wetcloth_test::body_comes_and_goes_test {
 
 namespace {
@@ -34,14 +36,32 @@ TEST_P(BodyComesAndGoes, DeletedWhileWeKnowIt) {
   EXPECT_EQ(messages.size(), 1u);
 }
 
-TEST_P(BodyComesAndGoes, ForgottenAndDeletedAndWeLeaveWithoutAnotherStep) {
+TEST_P(BodyComesAndGoes, DeletedAndWeLeaveWithoutAnotherStep) {
   BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog({});
   addEverything(wet.add(scene.body()));
   scene.bullet().step(5);
-  wet.remove(scene.body());
   scene.deleteBody();
+}
+
+// Only the world can tell that a body was deleted: it is asked before the body is.
+TEST_P(BodyComesAndGoes, DeletedAndWeAreAskedWithoutAnotherStep) {
+  for (const bool byDetach : {true, false}) {
+    BodyScene scene(GetParam(), hangingPatch(4));
+    wetcloth::WetClothWorld wet(scene.world());
+    wet.setLog({});
+    wetcloth::WetCloth& cloth = wet.add(scene.body());
+    addEverything(cloth);
+    scene.bullet().step(5);
+    const double held = cloth.held(2);
+    scene.deleteBody();
+    EXPECT_EQ(cloth.held(2), held);
+    EXPECT_EQ(cloth.nodeCount(), 16);
+    std::stringstream stream;
+    EXPECT_NO_THROW(wet.save(stream));  // a cloth that is not there has a state, too
+    if (byDetach) wet.detach();
+  }
 }
 
 TEST_P(BodyComesAndGoes, DeletedWithOthersLeftBehind) {

@@ -115,70 +115,47 @@ TEST_P(Detach, IsNotNeededWithoutCloths) {
   }
 }
 
-// --- the world went first, its bodies are there ---------------------------------------------------------------------
+// --- the world went first, and a body that is there is handed over --------------------------------------------------
 
-TEST_P(Detach, AfterTheWorldWasDeletedBodiesGetBackWhatWasTheirs) {
-  for (const bool byDetach : {true, false}) {
-    Parts parts(GetParam());
-    ASSERT_FALSE(parts.hasItsOwnMaterials());
-    parts.deleteWorldBeforeAll();
-    byDetach ? parts.wet->detach() : parts.wet.reset();
-    EXPECT_TRUE(parts.hasItsOwnMaterials());
-    ASSERT_EQ(parts.messages.size(), 1u);
-    EXPECT_NE(parts.messages[0].find("the world was deleted before its WetClothWorld"), std::string::npos);
-  }
-}
-
-TEST_P(Detach, AfterTheWorldWasDeletedClothsMayBeRemoved) {
+TEST_P(Detach, AfterTheWorldWasDeletedRemoveGivesTheBodyBackWhatWasIts) {
   Parts parts(GetParam());
+  ASSERT_FALSE(parts.hasItsOwnMaterials());
   parts.deleteWorldBeforeAll();
-  parts.cloth->remove(*parts.cloth->find<wetcloth::HookeSprings>());
-  EXPECT_TRUE(parts.hasItsOwnMaterials());
   parts.wet->remove(*parts.body);
+  EXPECT_TRUE(parts.hasItsOwnMaterials());
   EXPECT_TRUE(parts.wet->cloths().empty());
   parts.body.reset();
   parts.wet.reset();
-  EXPECT_EQ(parts.messages.size(), 1u);
+  ASSERT_EQ(parts.messages.size(), 1u);
+  EXPECT_NE(parts.messages[0].find("the world was deleted before its WetClothWorld"), std::string::npos);
 }
 
-TEST_P(Detach, AfterTheWorldWasDeletedReadingGoesOnAndChangingThrows) {
-  Parts parts(GetParam());
-  const double saturation = parts.cloth->saturation(3);
-  parts.deleteWorldBeforeAll();
-  EXPECT_EQ(parts.cloth->saturation(3), saturation);
-  EXPECT_EQ(parts.cloth->nodeCount(), 16);
-  EXPECT_EQ(parts.wet->find(*parts.body), parts.cloth);
-  EXPECT_FALSE(parts.wet->isInWorld(*parts.body));
-  EXPECT_FALSE(parts.wet->isHooked());
-  EXPECT_FALSE(parts.wet->isTickHooked());
-  parts.wet->preTick(btScalar(0.01));
-  parts.wet->tick(btScalar(0.01));
-  EXPECT_THROW(parts.cloth->setSaturation(1), std::invalid_argument);
-  EXPECT_THROW(parts.cloth->add<wetcloth::Wind>(), std::invalid_argument);
-  EXPECT_THROW(parts.wet->add(*parts.body), std::invalid_argument);
-  std::stringstream stream;
-  EXPECT_THROW(parts.wet->save(stream), std::invalid_argument);
-  EXPECT_THROW(parts.wet->restore(stream), std::invalid_argument);
-  EXPECT_EQ(parts.messages.size(), 1u);
-}
-
-// save() and add() may be the first to be called.
-TEST_P(Detach, AfterTheWorldWasDeletedTheFirstCallMayBeAny) {
-  {
+// add() is told of the deletion as remove() is; from then on nothing touches the world, or another body.
+TEST_P(Detach, AfterTheWorldWasSeenToBeDeletedReadingGoesOnAndChangingThrows) {
+  for (const bool byDetach : {true, false}) {
     Parts parts(GetParam());
-    parts.deleteWorldBeforeAll();
-    std::stringstream stream;
-    EXPECT_THROW(parts.wet->save(stream), std::invalid_argument);
-  }
-  {
-    Parts parts(GetParam());
+    const double saturation = parts.cloth->saturation(3);
     parts.deleteWorldBeforeAll();
     EXPECT_THROW(parts.wet->add(*parts.body), std::invalid_argument);
-  }
-  {
-    Parts parts(GetParam());
-    parts.deleteWorldBeforeAll();
+    EXPECT_EQ(parts.cloth->saturation(3), saturation);
+    EXPECT_EQ(parts.cloth->nodeCount(), 16);
+    EXPECT_EQ(parts.wet->find(*parts.body), parts.cloth);
+    EXPECT_FALSE(parts.wet->isInWorld(*parts.body));
+    EXPECT_FALSE(parts.wet->isHooked());
+    EXPECT_FALSE(parts.wet->isTickHooked());
+    parts.wet->preTick(btScalar(0.01));
+    parts.wet->tick(btScalar(0.01));
     EXPECT_THROW(parts.cloth->setSaturation(1), std::invalid_argument);
+    EXPECT_THROW(parts.cloth->add<wetcloth::Wind>(), std::invalid_argument);
+    EXPECT_THROW(parts.wet->add(*parts.body), std::invalid_argument);
+    std::stringstream stream;
+    EXPECT_THROW(parts.wet->save(stream), std::invalid_argument);
+    EXPECT_THROW(parts.wet->restore(stream), std::invalid_argument);
+    parts.cloth->remove(*parts.cloth->find<wetcloth::HookeSprings>());
+    EXPECT_TRUE(parts.hasItsOwnMaterials());
+    parts.body.reset();
+    byDetach ? parts.wet->detach() : parts.wet.reset();
+    EXPECT_EQ(parts.messages.size(), 1u);
   }
 }
 
