@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/bullet/Contacts.h"
+#include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/numerics/ContactArea.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -69,6 +70,33 @@ bool wetsCloths(const WetCloth& cloth) {
   bool wets = false;
   cloth.forEach<ContactWetting>([&](const ContactWetting& effect) { wets = wets || effect.parameters().cloths; });
   return wets;
+}
+
+// The cloths of the world that water goes to or from, be it by this one's effect or by theirs.
+template <class Visit>
+void visitPartners(WetCloth& cloth, Visit visit) {
+  const btAlignedObjectArray<btSoftBody*>& bodies = cloth.world().softBodies();
+  for (int i = 0; i < bodies.size(); ++i) {
+    WetCloth* const other = bodies[i] == &cloth.body() ? nullptr : cloth.world().find(*bodies[i]);
+    if (other && isUpToDate(*other) && (wetsCloths(cloth) || wetsCloths(*other))) visit(*other);
+  }
+}
+
+SideShares::Side sideOf(const WetCloth& cloth, int node, const btVector3& towards) {
+  return SideShares::sideOf(cloth.body().m_nodes[node].m_n, towards);
+}
+
+// By which the node is wetter than the point of the triangle that it touches.
+double differenceAt(const WetCloth& nodesOf, const WetCloth& facesOf, const FaceContact& contact) {
+  double faceSaturation = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    faceSaturation += contact.point.weights[k] * facesOf.water().saturation(toSize(contact.point.nodes[k]));
+  }
+  return nodesOf.water().saturation(toSize(contact.node)) - faceSaturation;
+}
+
+double areaOf(WetCloth& cloth, int node) {
+  return contactArea(cloth.restMesh(), cloth.water(), cloth.fabric().arealDensity, static_cast<std::size_t>(node));
 }
 
 }  // namespace
@@ -138,13 +166,11 @@ void ContactWetting::attach(WetCloth& cloth) {
 void ContactWetting::apply(WetCloth& cloth, const Step& step) {
   if (!m_parameters.wetBodies.empty()) takeFromFilms(cloth, step);
   if (!m_parameters.cloths) return;
-  const btAlignedObjectArray<btSoftBody*>& bodies = cloth.world().softBodies();
-  for (int i = 0; i < bodies.size(); ++i) {
-    WetCloth* const other = bodies[i] == &cloth.body() ? nullptr : cloth.world().find(*bodies[i]);
-    if (!other || !isUpToDate(*other) || isSeenToBy(cloth, *other)) continue;
-    exchange(cloth, *other, step);
-    exchange(*other, cloth, step);
-  }
+  visitPartners(cloth, [&](WetCloth& other) {
+    if (isSeenToBy(cloth, other)) return;
+    exchange(cloth, other, step);
+    exchange(other, cloth, step);
+  });
 }
 
 // Contacts with bodies that have water. A cloth whose nodes and triangles both collide lists what touches twice.
@@ -175,7 +201,7 @@ void ContactWetting::takeFromFilm(WetCloth& cloth, const Step& step, const Rigid
   for (int k = 0; k < contact.point.count; ++k) {
     const int node = contact.point.nodes[static_cast<std::size_t>(k)];
     const std::size_t i = static_cast<std::size_t>(node);
-    const double whole = contact.face < 0 ? contactArea(cloth.restMesh(), cloth.water(), cloth.fabric().arealDensity, i)
+    const double whole = contact.face < 0 ? areaOf(cloth, node)
                                           : cloth.restMesh().triangles()[static_cast<std::size_t>(contact.face)].area;
     const double area = whole / contactsWith(contact);
     const double conductance = m_parameters.rate * area * contact.point.weights[static_cast<std::size_t>(k)] * step.dt;
@@ -205,28 +231,71 @@ void ContactWetting::exchange(WetCloth& nodesOf, WetCloth& facesOf, const Step& 
   // Allocates when a larger cloth is met for the first time.
   m_contactsOfNode.resize(std::max(m_contactsOfNode.size(), nodesOf.water().size()));
   contacts.visit([&](const FaceContact& contact) { m_contactsOfNode[static_cast<std::size_t>(contact.node)] = 0; });
-  contacts.visit([&](const FaceContact& contact) { ++m_contactsOfNode[static_cast<std::size_t>(contact.node)]; });
+  bool touch = false;
   contacts.visit([&](const FaceContact& contact) {
-    const std::size_t node = static_cast<std::size_t>(contact.node);
-    const double area = contactArea(nodesOf.restMesh(), nodesOf.water(), nodesOf.fabric().arealDensity, node) /
-                        (2.0 * m_contactsOfNode[node]);
-    exchange(nodesOf, facesOf, contact, m_parameters.rate * area * step.dt);
+    ++m_contactsOfNode[static_cast<std::size_t>(contact.node)];
+    touch = true;
   });
+  if (!touch) return;
+  const bool areMany = nodesOf.world().cloths().size() > 2;
+  if (areMany) shareSides(nodesOf, facesOf);
+  contacts.visit([&](const FaceContact& contact) {
+    const double share = areMany ? shareOf(nodesOf, facesOf, contact) : 1;
+    const double area =
+        areaOf(nodesOf, contact.node) / (2.0 * m_contactsOfNode[static_cast<std::size_t>(contact.node)]);
+    exchange(nodesOf, facesOf, contact, m_parameters.rate * (share * area) * step.dt);
+  });
+}
+
+// With all cloths that touch the nodes by their triangles, and with all that touch the triangles by their nodes, each
+// by the difference that drives its water: a cloth as wet as this one takes no share.
+void ContactWetting::shareSides(WetCloth& nodesOf, WetCloth& facesOf) {
+  const bool deformable = nodesOf.isInDeformableWorld();
+  int who = 0;
+  m_nodeShares.reset(nodesOf.water().size());
+  visitPartners(nodesOf, [&](WetCloth& other) {
+    ++who;
+    FaceContacts(nodesOf.body(), other.body(), deformable).visit([&](const FaceContact& contact) {
+      const double difference = std::fabs(differenceAt(nodesOf, other, contact));
+      m_nodeShares.add(toSize(contact.node), sideOf(nodesOf, contact.node, -contact.normal), who, difference);
+    });
+  });
+  m_cornerShares.reset(facesOf.water().size());
+  visitPartners(facesOf, [&](WetCloth& other) {
+    ++who;
+    FaceContacts(other.body(), facesOf.body(), deformable).visit([&](const FaceContact& contact) {
+      const double wanted = areaOf(other, contact.node) * std::fabs(differenceAt(other, facesOf, contact));
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int corner = contact.point.nodes[k];
+        m_cornerShares.add(toSize(corner), sideOf(facesOf, corner, contact.normal), who,
+                           wanted * contact.point.weights[k]);
+      }
+    });
+  });
+}
+
+// A corner of the triangle that has little left holds up the whole contact.
+double ContactWetting::shareOf(const WetCloth& nodesOf, const WetCloth& facesOf, const FaceContact& contact) const {
+  double least = 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int corner = contact.point.nodes[k];
+    if (!(contact.point.weights[k] > 0)) continue;
+    least = std::min(least, m_cornerShares.share(toSize(corner), sideOf(facesOf, corner, contact.normal)));
+  }
+  return least * m_nodeShares.share(toSize(contact.node), sideOf(nodesOf, contact.node, -contact.normal));
 }
 
 // A triangle's saturation is that of the point that touches, and what it takes or gives is shared out by the same
 // weights: so it changes by the sum of b^2 / C per water.
 void ContactWetting::exchange(WetCloth& nodesOf, WetCloth& facesOf, const FaceContact& contact, double conductance) {
   const std::size_t node = static_cast<std::size_t>(contact.node);
-  double faceSaturation = 0;
   double faceResponse = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t corner = static_cast<std::size_t>(contact.point.nodes[k]);
     const double weight = contact.point.weights[k];
-    faceSaturation += weight * facesOf.water().saturation(corner);
     faceResponse += weight * weight / facesOf.water().capacity(corner);
   }
-  const double difference = nodesOf.water().saturation(node) - faceSaturation;
+  const double difference = differenceAt(nodesOf, facesOf, contact);
   if (!(std::fabs(difference) > kNegligible)) return;
   const double flow = equalisingFlow(difference, 1 / nodesOf.water().capacity(node), faceResponse, conductance);
   for (std::size_t k = 0; k < 3; ++k) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Effect.h"
+#include "bullet_wetcloth/numerics/SideShares.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 
@@ -35,9 +36,9 @@ WETCLOTH_EXPORT double equalisingFlow(double difference, double responseA, doubl
 /// Water goes by the difference of saturation: a film counts as 1. A node takes up through its own area, which its
 /// contacts with wet bodies share: Bullet lists one for each part of a compound and each triangle of a mesh that is
 /// near. Where two cloths touch, Bullet lists contacts of the nodes of each with the triangles of the other, so each of
-/// these has half of its node's area, shared between the contacts that the node has. What one cloth gives is `dripped`
-/// in its ledger and `absorbed` in the other's; it brings the velocity of the node that it leaves, a film's that of its
-/// body.
+/// these has half of its node's area, shared between the contacts that the node has. Several cloths on the same side of
+/// a node share its area there: k of them at one place give what one does. What one cloth gives is `dripped` in its
+/// ledger and `absorbed` in the other's; it brings the velocity of the node that it leaves, a film's that of its body.
 ///
 /// One of two cloths needs the effect. If both have it, the one that was added to the WetClothWorld first sees to the
 /// pair. Contacts are those of the last substep; of a sleeping cloth those of when it fell asleep, but for a rigid body
@@ -97,6 +98,8 @@ class WETCLOTH_EXPORT ContactWetting : public Effect {
   bool isSeenToBy(const WetCloth& cloth, const WetCloth& other) const;
   void exchange(WetCloth& nodesOf, WetCloth& facesOf, const Step& step);
   void exchange(WetCloth& nodesOf, WetCloth& facesOf, const FaceContact& contact, double conductance);
+  void shareSides(WetCloth& nodesOf, WetCloth& facesOf);
+  double shareOf(const WetCloth& nodesOf, const WetCloth& facesOf, const FaceContact& contact) const;
   void give(WetCloth& from, int fromNode, WetCloth& to, int toNode, double mass);
 
   Parameters m_parameters;
@@ -105,6 +108,8 @@ class WETCLOTH_EXPORT ContactWetting : public Effect {
   bool m_hasNodeContacts = false;
   std::vector<int> m_contactsOfNode;
   std::vector<int> m_contactsOfTriangle;
+  SideShares m_nodeShares;    // of the nodes of the pair that is looked at
+  SideShares m_cornerShares;  // of the corners of its triangles
   long long m_nodesVisited = 0;
 };
 

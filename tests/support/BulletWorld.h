@@ -78,13 +78,13 @@ class BulletWorld {
   }
 
   /// Adds a soft body; in the deformable world with gravity, as that world wants it.
-  void add(btSoftBody& body) {
+  void add(btSoftBody& body, int group = btBroadphaseProxy::DefaultFilter, int mask = btBroadphaseProxy::AllFilter) {
     if (m_kind == WorldKind::softRigid) {
-      static_cast<btSoftRigidDynamicsWorld&>(*m_world).addSoftBody(&body);
+      static_cast<btSoftRigidDynamicsWorld&>(*m_world).addSoftBody(&body, group, mask);
     } else if (m_kind == WorldKind::softMultiBody) {
-      static_cast<btSoftMultiBodyDynamicsWorld&>(*m_world).addSoftBody(&body);
+      static_cast<btSoftMultiBodyDynamicsWorld&>(*m_world).addSoftBody(&body, group, mask);
     } else {
-      deformable().addSoftBody(&body);
+      deformable().addSoftBody(&body, group, mask);
       addForce(body, std::make_unique<btDeformableGravityForce>(info().m_gravity));
     }
   }
