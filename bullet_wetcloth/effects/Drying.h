@@ -13,6 +13,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class RestMesh;
+
 /// Pressure of water vapour over water at this temperature [Pa] (Tetens 1930): 610.8 exp(17.27 T / (T + 237.3)).
 /// @param temperature T [degC], within 0.2 % in [0, 60]
 WETCLOTH_EXPORT double saturationVapourPressure(double temperature);

@@ -11,6 +11,7 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 class EdgeFlow;
+class RestMesh;
 
 /// Conductivity of a partly saturated cloth over that of a saturated one: s^exponent [-] (Brooks & Corey 1964; 3 for
 /// thin films, Irmay 1954), of a saturation in [0, 1].
