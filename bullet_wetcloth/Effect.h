@@ -59,6 +59,9 @@ class WETCLOTH_EXPORT Effect {
   virtual void attach(WetCloth& cloth) { static_cast<void>(cloth); }
   /// The effect is about to be removed: gives back what it changed in the body.
   virtual void detach(WetCloth& cloth) { static_cast<void>(cloth); }
+  /// Whether apply() reads and changes nodes through WetCloth::packedNodes() alone, which effects that follow each other
+  /// share. The others find the nodes of the body up to date.
+  virtual bool usesPackedNodes() const { return false; }
   /// Does its part of one substep. Never throws.
   virtual void apply(WetCloth& cloth, const Step& step) = 0;
   /// Asked instead of apply() at the stages from `forces` on while Bullet lets the body sleep (it does so in

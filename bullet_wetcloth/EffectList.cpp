@@ -44,11 +44,21 @@ bool EffectList::apply(Stage first, Stage last, const Step& step) {
   std::size_t next = 0;
   while (next < m_entries.size() && m_entries[next].effect->stage() < first) ++next;
   while (next < m_entries.size() && m_entries[next].effect->stage() <= last) {
-    const bool isWell = guarded(next, [&](Effect& effect) { effect.apply(m_cloth, step); });
+    const bool isWell = guarded(next, [&](Effect& effect) { applyOne(effect, step); });
     if (isWell) ++next;
     allWell = allWell && isWell;
   }
+  m_cloth.packedNodes().release();
   return allWell;
+}
+
+void EffectList::applyOne(Effect& effect, const Step& step) {
+  if (effect.usesPackedNodes()) {
+    m_cloth.packedNodes().hold();
+  } else {
+    m_cloth.packedNodes().release();
+  }
+  effect.apply(m_cloth, step);
 }
 
 bool EffectList::attachAgain() {

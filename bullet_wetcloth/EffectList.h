@@ -63,6 +63,7 @@ class WETCLOTH_EXPORT EffectList {
  private:
   template <class Action>
   bool guarded(std::size_t index, Action action);
+  void applyOne(Effect& effect, const Step& step);
   void detachGuarded(Effect& effect);
 
   WetCloth& m_cloth;

@@ -24,6 +24,7 @@ WetCloth::WetCloth(WetClothWorld& world, btSoftBody& body, Fabric fabric, bool d
       m_masses(body, deformable),
       m_linkConstants(body),
       m_restLengths(body),
+      m_packedNodes(body, deformable),
       m_effects(*this),
       m_watch(body) {
   m_water.reset(dryMasses(m_body, m_fabric.arealDensity), m_fabric.capacity);
@@ -33,6 +34,11 @@ WetCloth::WetCloth(WetClothWorld& world, btSoftBody& body, Fabric fabric, bool d
 WetCloth::~WetCloth() = default;
 
 void WetCloth::log(const std::string& message) const { m_world.log(message); }
+
+void WetCloth::setPace(const WaterPace& pace) {
+  requireValid(pace);
+  m_pace = pace;
+}
 
 // --- effects --------------------------------------------------------------------------------------------------------
 
@@ -69,9 +75,24 @@ void WetCloth::step(const Step& step) {
   if (isIdle ? m_body.m_bUpdateRtCst : m_masses.seemSet()) takeOverMasses();
   followRestLengths();
   if (isIdle) return;
-  apply(Stage::sources, Stage::material, step);
-  if (m_water.movedSinceCommit()) commit();
+  moveWater(step);
   if (isAwake(step)) apply(Stage::forces, Stage::elasticity, step);
+}
+
+void WetCloth::moveWater(const Step& step) {
+  const WaterClock::Turn turn = m_waterClock.tick(step.dt, m_pace.everySubsteps);
+  if (!(turn.dt > 0)) return;
+  const unsigned long long before = m_water.revision();
+  apply(Stage::sources, Stage::material, {turn.dt, step.time + turn.start, step.gravity});
+  commitIfDue(m_water.revision() == before);
+}
+
+void WetCloth::commitIfDue(bool isAtRest) {
+  if (m_water.movedSinceCommit() && (isAtRest || m_masses.areDue(m_water, m_pace.massTolerance))) {
+    commit();
+  } else if (m_linkConstants.areStale()) {
+    m_linkConstants.refresh(m_masses.inverseMasses());
+  }
 }
 
 // Masses and momentum, and then the links' constants, which follow from the masses.
@@ -95,7 +116,7 @@ bool WetCloth::isAwake(const Step& step) {
 }
 
 void WetCloth::commitExchange() {
-  if (m_water.movedSinceCommit() && !m_watch.nodesChanged()) commit();
+  if (!m_watch.nodesChanged()) commitIfDue(false);
 }
 
 void WetCloth::spareBulletTheFaceTree() {
@@ -253,6 +274,7 @@ void WetCloth::transferState(StateArchive& archive) {
   archive.expect(m_water.size(), "a cloth's number of nodes");
   archive.expect(m_world.isInWorld(m_body), "whether a cloth's body is in the world");
   archive.value(m_massAsleep, m_wasPresent, m_hasJustBegun);
+  m_waterClock.transferState(archive);
   m_water.transferState(archive);
   m_masses.transferState(archive);
   m_linkConstants.transferState(archive);

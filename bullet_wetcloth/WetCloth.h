@@ -7,12 +7,14 @@
 #include "bullet_wetcloth/EffectType.h"
 #include "bullet_wetcloth/Fabric.h"
 #include "bullet_wetcloth/Range.h"
+#include "bullet_wetcloth/bullet/PackedNodes.h"
 #include "bullet_wetcloth/mesh/RestLengths.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
 #include "bullet_wetcloth/shading/Colour.h"
 #include "bullet_wetcloth/water/LinkConstants.h"
 #include "bullet_wetcloth/water/NodeMasses.h"
 #include "bullet_wetcloth/water/Water.h"
+#include "bullet_wetcloth/water/WaterPace.h"
 
 #include <BulletSoftBody/btSoftBody.h>
 
@@ -42,6 +44,11 @@ class WETCLOTH_EXPORT WetCloth {
   const btSoftBody& body() const { return m_body; }
   /// What it is made of, as given to WetClothWorld::add().
   const Fabric& fabric() const { return m_fabric; }
+
+  /// How often its water moves, and when its weight follows.
+  const WaterPace& pace() const { return m_pace; }
+  /// Between steps. Throws std::invalid_argument naming the field and the value; then nothing has changed.
+  void setPace(const WaterPace& pace);
 
   // --- effects ----------------------------------------------------------------------------------------------
 
@@ -162,6 +169,9 @@ class WETCLOTH_EXPORT WetCloth {
   RestLengths& restLengths() { return m_restLengths; }
   /// The same, to look at.
   const RestLengths& restLengths() const { return m_restLengths; }
+  /// The nodes' places, velocities and inverse masses in arrays. An effect that asks for them says so in
+  /// Effect::usesPackedNodes(), and calls fit() in attach().
+  PackedNodes& packedNodes() { return m_packedNodes; }
   /// The cloth's triangles at rest. Built when first asked for, and again after the body's nodes, links or faces
   /// changed in number, or the lengths of its links at rest, and with the first effect: ask in attach(), which is
   /// called then.
@@ -207,6 +217,8 @@ class WETCLOTH_EXPORT WetCloth {
 
   Effect& add(std::unique_ptr<Effect> effect, const void* type);
   void apply(Stage first, Stage last, const Step& step);
+  void moveWater(const Step& step);
+  void commitIfDue(bool isAtRest);
   void commit();
   bool isAwake(const Step& step);
   /// Whether the body, which is in the world, is the one that was added. One that came back may be another that an
@@ -232,9 +244,12 @@ class WETCLOTH_EXPORT WetCloth {
   NodeMasses m_masses;
   LinkConstants m_linkConstants;
   RestLengths m_restLengths;
+  PackedNodes m_packedNodes;
   std::optional<RestMesh> m_restMesh;
   EffectList m_effects;
   BodyWatch m_watch;
+  WaterPace m_pace;
+  WaterClock m_waterClock;
   double m_massAsleep = 0;  // when Bullet let the body sleep, 0 while it is awake [kg]
   bool m_wasPresent = true;
   bool m_hasStepped = false;

@@ -6,6 +6,7 @@
 #include "tests/support/BodyScene.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/CallEffect.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
 #include "tests/support/Measures.h"
@@ -31,7 +32,7 @@ TEST_P(BadValuesInTheStep, AnExposureFunctionIsClamped) {
   for (const Case& each : {Case{kNaN, 0}, Case{7, 1}, Case{-3, 0}, Case{HUGE_VAL, 1}, Case{-HUGE_VAL, 0}}) {
     BodyScene scene(GetParam(), hangingPatch(4));
     wetcloth::WetClothWorld wet(scene.world());
-    wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
+    wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(1, 1)));
     cloth.add<wetcloth::Absorption>({[&each](const btVector3&, const btVector3&) { return each.value; }});
     scene.bullet().step(240);
     EXPECT_NEAR(cloth.meanSaturation(), 1 - std::exp(-each.effective), 1e-5) << each.value;
@@ -43,7 +44,9 @@ TEST_P(BadValuesInTheStep, AWindFunctionThatIsNotFiniteIsNoWind) {
   for (const btScalar bad : {kScalarNaN, kScalarInfinity, -kScalarInfinity}) {
     BodyScene scene(GetParam(), sailPatch(4), btVector3(0, 0, 0));
     wetcloth::WetClothWorld wet(scene.world());
-    wet.add(scene.body()).add<wetcloth::Wind>({[bad](const btVector3&, double) { return btVector3(0, 0, bad); }});
+    exactly(wet.add(scene.body())).add<wetcloth::Wind>({[bad](const btVector3&, double) {
+      return btVector3(0, 0, bad);
+    }});
     scene.bullet().step(60);
     EXPECT_TRUE(isFinite(scene.body()));
     // At rest in still air; the links' rounding moves nodes by micrometres per second.
@@ -57,7 +60,7 @@ TEST_P(BadValuesInTheStep, AFunctionThatThrowsTakesItsEffectAway) {
   wetcloth::WetClothWorld wet(scene.world());
   int messages = 0;
   wet.setLog([&messages](const std::string&) { ++messages; });
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   cloth.add<wetcloth::Wind>({[](const btVector3&, double) -> btVector3 { throw std::runtime_error("no forecast"); }});
   cloth.add<wetcloth::Absorption>();
   EXPECT_NO_THROW(scene.bullet().step(10));
@@ -85,7 +88,7 @@ TEST_P(BadValuesInTheStep, ATriangleWithoutAreaFeelsNothing) {
   for (const auto law : {wetcloth::Wind::Law::quadratic, wetcloth::Wind::Law::linear, wetcloth::Wind::Law::paper}) {
     BodyScene scene(GetParam(), degenerate, btVector3(0, 0, 0));
     wetcloth::WetClothWorld wet(scene.world());
-    wetcloth::WetCloth& cloth = wet.add(scene.body());
+    wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
     wetcloth::Wind::Parameters wind;
     wind.velocity = btVector3(1, 1, 3);
     wind.law = law;
@@ -107,7 +110,7 @@ TEST_P(BadValuesInTheStep, ATriangleWithoutAreaFeelsNothing) {
 TEST_P(BadValuesInTheStep, AStepWithoutLengthIsIgnored) {
   BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(1, 1)));
   cloth.add<wetcloth::Absorption>();
   cloth.add<wetcloth::Wind>({btVector3(0, 0, 3)});
   cloth.add<wetcloth::HookeSprings>(springsOf(100, 1));
@@ -127,7 +130,7 @@ TEST_P(BadValuesInTheStep, AStepWithoutLengthIsIgnored) {
 TEST_P(BadValuesInTheStep, ThroughBulletTooAStepBackwardsAddsNoWater) {
   BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(1, 1)));
   cloth.add<wetcloth::Absorption>();
   scene.bullet().step(1);
   const double before = cloth.ledger().held;

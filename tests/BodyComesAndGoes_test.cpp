@@ -5,6 +5,7 @@
 #include "tests/support/BodyScene.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
 #include "tests/support/Patches.h"
@@ -29,7 +30,7 @@ TEST_P(BodyComesAndGoes, DeletedWhileWeKnowIt) {
   std::vector<std::string> messages;
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
-  addEverything(wet.add(scene.body()));
+  addEverything(exactly(wet.add(scene.body())));
   scene.bullet().step(5);
   scene.deleteBody();
   scene.bullet().step(5);
@@ -40,7 +41,7 @@ TEST_P(BodyComesAndGoes, DeletedAndWeLeaveWithoutAnotherStep) {
   BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog({});
-  addEverything(wet.add(scene.body()));
+  addEverything(exactly(wet.add(scene.body())));
   scene.bullet().step(5);
   scene.deleteBody();
 }
@@ -51,7 +52,7 @@ TEST_P(BodyComesAndGoes, DeletedAndWeAreAskedWithoutAnotherStep) {
     BodyScene scene(GetParam(), hangingPatch(4));
     wetcloth::WetClothWorld wet(scene.world());
     wet.setLog({});
-    wetcloth::WetCloth& cloth = wet.add(scene.body());
+    wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
     addEverything(cloth);
     scene.bullet().step(5);
     const double held = cloth.held(2);
@@ -75,8 +76,8 @@ TEST_P(BodyComesAndGoes, DeletedWithOthersLeftBehind) {
   {
     wetcloth::WetClothWorld wet(bullet.world());
     wet.setLog({});
-    addEverything(wet.add(*gone));
-    addEverything(wet.add(*stays));
+    addEverything(exactly(wet.add(*gone)));
+    addEverything(exactly(wet.add(*stays)));
     bullet.step(5);
     bullet.remove(*gone);
     gone.reset();
@@ -93,7 +94,7 @@ TEST_P(BodyComesAndGoes, RemovedAndAddedAgainItGoesOn) {
   std::vector<std::string> messages;
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(1, 1)));
   cloth.add<wetcloth::Absorption>();
   scene.bullet().step(24);
   const double before = cloth.ledger().held;
@@ -113,7 +114,7 @@ TEST_P(BodyComesAndGoes, ForgottenThenDeleted) {
   int messages = 0;
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog([&messages](const std::string&) { ++messages; });
-  addEverything(wet.add(scene.body()));
+  addEverything(exactly(wet.add(scene.body())));
   scene.bullet().step(5);
   wet.remove(scene.body());
   scene.deleteBody();

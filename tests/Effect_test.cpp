@@ -5,6 +5,7 @@
 #include "tests/support/BodyScene.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/CallEffect.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
 #include "tests/support/Patches.h"
@@ -34,7 +35,7 @@ TEST_P(EffectOrder, IsThatOfTheStagesWhateverTheOrderOfAdding) {
        {std::vector<std::size_t>{0, 1, 2, 3, 4, 5}, {5, 4, 3, 2, 1, 0}, {3, 5, 0, 4, 1, 2}}) {
     BodyScene scene(GetParam());
     wetcloth::WetClothWorld wet(scene.world());
-    wetcloth::WetCloth& cloth = wet.add(scene.body());
+    wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
     Names names;
     for (const std::size_t i : order) addRecorder(cloth, inOrder[i].first, inOrder[i].second, names);
     scene.bullet().step(1);
@@ -46,7 +47,7 @@ TEST_P(EffectOrder, IsThatOfTheStagesWhateverTheOrderOfAdding) {
 TEST_P(EffectOrder, WithinAStageIsThatOfAdding) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   Names names;
   for (const char* name : {"b", "a", "c"}) addRecorder(cloth, Stage::forces, name, names);
   scene.bullet().step(1);
@@ -57,7 +58,7 @@ TEST_P(EffectOrder, WithinAStageIsThatOfAdding) {
 TEST_P(EffectOrder, MassesAreCommittedBetweenMaterialAndForces) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   const btScalar dry = scene.body().m_nodes[12].m_im;
   cloth.add<wetcloth::Absorption>();
   btScalar seen[2] = {0, 0};
@@ -77,7 +78,7 @@ TEST_P(EffectOrder, HasNoInfluenceOnTheResult) {
   for (const bool windFirst : {false, true}) {
     BodyScene scene(GetParam(), hangingPatch(5));
     wetcloth::WetClothWorld wet(scene.world());
-    wetcloth::WetCloth& cloth = wet.add(scene.body());
+    wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
     if (windFirst) cloth.add<wetcloth::Wind>({btVector3(0, 0, 3)});
     cloth.add<wetcloth::Absorption>();
     if (!windFirst) cloth.add<wetcloth::Wind>({btVector3(0, 0, 3)});
@@ -118,7 +119,7 @@ class OwnEffect : public InEveryWorld {};
 TEST_P(OwnEffect, WorksLikeOneOfOurs) {
   BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(1, 1)));
   const Sponge& sponge = cloth.add<Sponge>({0.25});
   EXPECT_EQ(&cloth.effects()[0], &sponge);
   scene.bullet().step(240);
@@ -139,7 +140,7 @@ class Refuses : public wetcloth::Effect {
 TEST_P(OwnEffect, ThatRefusesABodyIsNotAdded) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   EXPECT_THROW(cloth.add(std::make_unique<Refuses>()), std::invalid_argument);
   EXPECT_TRUE(cloth.effects().empty());
   EXPECT_THROW(cloth.add(std::unique_ptr<wetcloth::Effect>()), std::invalid_argument);
@@ -153,7 +154,7 @@ TEST_P(OwnEffect, ThatThrowsIsRemovedAndTheWorldGoesOn) {
     wetcloth::WetClothWorld wet(scene.world());
     std::vector<std::string> messages;
     wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
-    wetcloth::WetCloth& cloth = wet.add(scene.body());
+    wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
     Names names;
     addRecorder(cloth, Stage::sources, "before", names);
     addCall(
@@ -197,7 +198,7 @@ TEST_P(OwnEffect, ThatFailsIsDetachedBeforeItIsRemoved) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog({});
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   bool gaveBack = false;
   cloth.add(std::make_unique<FailsAndGivesBack>(gaveBack));
   EXPECT_NO_THROW(scene.bullet().step(1));
@@ -220,7 +221,7 @@ TEST_P(OwnEffect, ThatThrowsAtTheEndIsReported) {
   {
     wetcloth::WetClothWorld wet(scene.world());
     wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
-    wet.add(scene.body()).add(std::make_unique<DoesNotGiveBack>());
+    exactly(wet.add(scene.body())).add(std::make_unique<DoesNotGiveBack>());
   }
   ASSERT_EQ(messages.size(), 1u);
   EXPECT_NE(messages[0].find("DoesNotGiveBack"), std::string::npos) << messages[0];
@@ -230,7 +231,7 @@ TEST_P(OwnEffect, ThatThrowsAtTheEndIsReported) {
 TEST_P(OwnEffect, CannotPushNonsense) {
   BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   const std::vector<btScalar> before = stateOf(scene.body());
   const btScalar nan = std::numeric_limits<btScalar>::quiet_NaN();
   const btScalar infinity = std::numeric_limits<btScalar>::infinity();
@@ -244,7 +245,7 @@ TEST_P(OwnEffect, CannotPushNonsense) {
 TEST_P(OwnEffect, ThatIsNotOursCannotBeRemoved) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   wetcloth::Absorption stranger({});
   EXPECT_THROW(cloth.remove(stranger), std::invalid_argument);
   wetcloth::Absorption& ours = cloth.add<wetcloth::Absorption>();

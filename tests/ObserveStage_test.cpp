@@ -6,6 +6,7 @@
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/CallEffect.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Patches.h"
 
@@ -32,7 +33,7 @@ class TwoCloths {
       : m_scene(kind),
         m_other(squarePatch(3).build(m_scene.bullet().info())),
         wet(m_scene.world(), wetcloth::Hook::manual),
-        first(wet.add(m_scene.body())),
+        first(exactly(wet.add(m_scene.body()))),
         second(addOther()) {}
   ~TwoCloths() { m_scene.bullet().remove(*m_other); }
   TwoCloths(const TwoCloths&) = delete;
@@ -41,7 +42,7 @@ class TwoCloths {
  private:
   wetcloth::WetCloth& addOther() {
     m_scene.bullet().add(*m_other);
-    return wet.add(*m_other);
+    return exactly(wet.add(*m_other));
   }
 
   BodyScene m_scene;
@@ -70,7 +71,7 @@ TEST_P(ObserveStage, ComesBeforeAllOtherStagesOfAllCloths) {
 TEST_P(ObserveStage, SeesTheClothAsTheLastSubstepLeftIt) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   cloth.add<wetcloth::Absorption>();
   cloth.add<wetcloth::Wind>({btVector3(9, 9, 9)});
   std::vector<btScalar> last = stateOf(scene.body());
@@ -97,7 +98,7 @@ TEST_P(ObserveStage, SeesABodyThatWasCutAsItIsNow) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wet.setLog(nullptr);
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   std::size_t nodes = 0;
   addCall(
       cloth, [&](wetcloth::WetCloth& observed, const wetcloth::Step&) { nodes = observed.water().size(); },
@@ -112,7 +113,7 @@ TEST_P(ObserveStage, AnObserverThatThrowsIsRemoved) {
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   Names messages;
   wet.setLog([&](const std::string& message) { messages.push_back(message); });
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   addCall(
       cloth, [](wetcloth::WetCloth&, const wetcloth::Step&) { throw std::runtime_error("seen enough"); },
       Stage::observe);
@@ -128,7 +129,7 @@ WETCLOTH_IN_EVERY_WORLD(ObserveStage);
 TEST(ObserveStageAsleep, RunsWhileForcesRest) {
   BodyScene scene(WorldKind::deformable);
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   Names names;
   addRecorder(cloth, Stage::forces, "forces", names);
   addRecorder(cloth, Stage::observe, "observe", names);

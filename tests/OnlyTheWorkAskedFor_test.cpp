@@ -6,6 +6,7 @@
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/CallEffect.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
 #include "tests/support/Patches.h"
@@ -19,7 +20,7 @@ class OnlyTheWorkAskedFor : public InEveryWorld {};
 // 1 s is 100 time constants: what is missing then is below the rounding of a double.
 struct Soaked {
   explicit Soaked(WorldKind kind, wetcloth::Absorption::Law law = wetcloth::Absorption::Law::exponential)
-      : scene(kind, hangingPatch(5)), wet(scene.world()), cloth(wet.add(scene.body(), fabricOf(1, 0.01))) {
+      : scene(kind, hangingPatch(5)), wet(scene.world()), cloth(exactly(wet.add(scene.body(), fabricOf(1, 0.01)))) {
     wetcloth::Absorption::Parameters parameters;
     parameters.law = law;
     parameters.rampDuration = 0.5;
@@ -76,7 +77,7 @@ TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenWaterWasSetByHand) {
 TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenTheExposureChanged) {
   BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 0.01));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(1, 0.01)));
   wetcloth::Absorption& soak = cloth.add<wetcloth::Absorption>({0.0});
   scene.bullet().step(10);
   EXPECT_EQ(cloth.ledger().held, 0);
@@ -99,7 +100,7 @@ TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenTheApplicationMadeANodeHeavier) {
 TEST_P(OnlyTheWorkAskedFor, WindTouchesNoMasses) {
   BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   cloth.add<wetcloth::Wind>({btVector3(0, 0, 3)});
   const long long commits = cloth.masses().commits();
   const btScalar before = scene.body().m_nodes[2].m_im;
@@ -112,7 +113,7 @@ TEST_P(OnlyTheWorkAskedFor, WindTouchesNoMasses) {
 TEST_P(OnlyTheWorkAskedFor, IsDoneAtOnceWhenWaterIsSetByHand) {
   BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(3, 1));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(3, 1)));
   scene.bullet().step(1);
   const std::vector<btScalar> before = stateOf(scene.body());
   const double dry = cloth.dryMass(7);

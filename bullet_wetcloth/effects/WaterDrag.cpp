@@ -84,15 +84,25 @@ void WaterDrag::attach(WetCloth& cloth) {
   const bool firstTime = m_mesh == nullptr;  // later, the application may have let the water out
   if (firstTime) requireSurface("WaterDrag.surface", m_parameters.surface, cloth.body());
   m_mesh = &cloth.restMesh();
+  m_triangles.clear();
+  for (const RestMesh::Triangle& triangle : m_mesh->triangles()) {
+    if (!triangle.isDoubled) m_triangles.push_back(triangle.nodes);
+  }
+  cloth.packedNodes().fit();
   m_nodes.resize(cloth.water().size());
+  m_isImmersed.assign(m_nodes.size(), 0);
 }
 
 void WaterDrag::apply(WetCloth& cloth, const Step& step) {
   m_totalForce.setZero();
   m_surface = surfaceFor(m_parameters.surface, cloth.body());
-  if (!m_surface || isWellAbove(*m_surface, cloth.body()) || !gather(cloth, step)) return;
-  accumulate(cloth.body(), step);
-  scatter(cloth, step);
+  if (!m_surface || isWellAbove(*m_surface, cloth.body())) return;
+  PackedNodes& nodes = cloth.packedNodes();
+  nodes.read();
+  if (!findImmersed(nodes)) return;
+  look(cloth, nodes, step);
+  accumulate(nodes, step);
+  push(nodes, step);
 }
 
 bool WaterDrag::wakes(const WetCloth& cloth, const Step& step) const {
@@ -103,55 +113,65 @@ bool WaterDrag::wakes(const WetCloth& cloth, const Step& step) const {
   return isReachedNow && differs(*now, *m_surface, cloth.body());
 }
 
+bool WaterDrag::findImmersed(const PackedNodes& nodes) {
+  const WaterSurface& surface = *m_surface;
+  bool isAny = false;
+  for (std::size_t i = 0; i < m_isImmersed.size(); ++i) {
+    const btVector3 x(nodes.position[0][i], nodes.position[1][i], nodes.position[2][i]);
+    m_isImmersed[i] = surface.depth(x) > 0;
+    isAny = isAny || m_isImmersed[i];
+  }
+  m_nodesVisited += static_cast<long long>(m_nodes.size());
+  return isAny;
+}
+
 // Bullet adds gravity right after us. Resistance that looks at the velocity with gravity and buoyancy in it balances
-// them exactly at the terminal speed. Returns whether any node is in the water.
-bool WaterDrag::gather(const WetCloth& cloth, const Step& step) {
+// them exactly at the terminal speed.
+void WaterDrag::look(const WetCloth& cloth, const PackedNodes& nodes, const Step& step) {
   const Water& water = cloth.water();
   const std::vector<double>& areas = m_mesh->nodeAreas();
   const btScalar dt = static_cast<btScalar>(step.dt);
-  bool isAnyImmersed = false;
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
-    const btSoftBody::Node& node = cloth.body().m_nodes[static_cast<int>(i)];
+    if (!m_isImmersed[i]) continue;
     NodeState& state = m_nodes[i];
-    state.isImmersed = m_surface->depth(node.m_x) > 0;
-    if (!state.isImmersed) continue;
-    isAnyImmersed = true;
+    const btScalar inverseMass = nodes.inverseMass[i];
+    const btVector3 velocity(nodes.velocity[0][i], nodes.velocity[1][i], nodes.velocity[2][i]);
     const double volume = displacedVolume(water.dryMass(i), m_parameters.fibreDensity, water.held(i));
     state.lift = step.gravity * static_cast<btScalar>(-m_surface->density * volume);
-    const btVector3 fall = (step.gravity + state.lift * node.m_im) * dt;
-    state.relative = m_surface->velocity - node.m_v - (node.m_im > 0 ? fall : btVector3(0, 0, 0));
-    state.specificArea = static_cast<btScalar>(areas[i]) * node.m_im;
+    const btVector3 fall = (step.gravity + state.lift * inverseMass) * dt;
+    state.relative = m_surface->velocity - velocity - (inverseMass > 0 ? fall : btVector3(0, 0, 0));
+    state.specificArea = static_cast<btScalar>(areas[i]) * inverseMass;
     state.resistance.setZero();
     state.drag = 0;
   }
-  m_nodesVisited += static_cast<long long>(m_nodes.size());
-  return isAnyImmersed;
 }
 
-void WaterDrag::accumulate(const btSoftBody& body, const Step& step) {
+void WaterDrag::accumulate(const PackedNodes& nodes, const Step& step) {
   const FluidResistance resistance = {0, static_cast<btScalar>(m_surface->density * m_parameters.dragCoefficient / 2),
                                       static_cast<btScalar>(m_surface->density * m_parameters.skinFriction / 2),
                                       static_cast<btScalar>(step.dt)};
-  const auto isImmersed = [this](int node) { return m_nodes[static_cast<std::size_t>(node)].isImmersed; };
-  for (const RestMesh::Triangle& triangle : m_mesh->triangles()) {
-    const std::array<int, 3>& corners = triangle.nodes;
-    if (triangle.isDoubled || std::none_of(corners.begin(), corners.end(), isImmersed)) continue;
-    const auto position = [&](std::size_t k) { return body.m_nodes[corners[k]].m_x; };
-    resist(triangle, flatTriangle(position(0), position(1), position(2)), resistance);
+  const auto isImmersed = [this](int node) { return m_isImmersed[static_cast<std::size_t>(node)]; };
+  const auto position = [&](int node) {
+    const std::size_t i = static_cast<std::size_t>(node);
+    return btVector3(nodes.position[0][i], nodes.position[1][i], nodes.position[2][i]);
+  };
+  for (const Triangle& corners : m_triangles) {
+    const auto [a, b, c] = corners;
+    if (!(isImmersed(a) | isImmersed(b) | isImmersed(c))) continue;
+    resist(corners, flatTriangle(position(a), position(b), position(c)), resistance);
   }
-  m_trianglesVisited += static_cast<long long>(m_mesh->triangles().size());
+  m_trianglesVisited += static_cast<long long>(m_triangles.size());
 }
 
 // Each corner takes its third by its own relative velocity: then the water can only bring a node closer to its own.
-void WaterDrag::resist(const RestMesh::Triangle& triangle, const FlatTriangle& shape,
-                       const FluidResistance& resistance) {
+void WaterDrag::resist(const Triangle& triangle, const FlatTriangle& shape, const FluidResistance& resistance) {
   NodeState* immersed[3] = {};
   std::size_t count = 0;
   btVector3 mean(0, 0, 0);
   btScalar specificArea = 0;
-  for (const int corner : triangle.nodes) {
+  for (const int corner : triangle) {
     NodeState& node = m_nodes[static_cast<std::size_t>(corner)];
-    if (!node.isImmersed) continue;
+    if (!m_isImmersed[static_cast<std::size_t>(corner)]) continue;
     immersed[count++] = &node;
     mean += node.relative;
     specificArea += node.specificArea;
@@ -172,17 +192,22 @@ void WaterDrag::resist(const RestMesh::Triangle& triangle, const FlatTriangle& s
 
 // With s >= the largest eigenvalue of the node's drag tensor, (I - dt D / (m + dt s)) never lengthens the velocity
 // relative to the water, for any mass and step; on a flat sheet it is backward Euler.
-void WaterDrag::scatter(WetCloth& cloth, const Step& step) {
+void WaterDrag::push(PackedNodes& nodes, const Step& step) {
   const btScalar dt = static_cast<btScalar>(step.dt);
   double total[3] = {0, 0, 0};
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+    if (!m_isImmersed[i]) continue;
     const NodeState& state = m_nodes[i];
-    if (!state.isImmersed) continue;
-    btSoftBody::Node& node = cloth.body().m_nodes[static_cast<int>(i)];
-    const btVector3 force = state.lift + state.resistance / (1 + dt * state.drag * node.m_im);
-    for (int axis = 0; axis < 3; ++axis) total[axis] += static_cast<double>(force[axis]);
-    cloth.push(node, force * (dt * node.m_im));
+    const btScalar inverseMass = nodes.inverseMass[i];
+    const btVector3 force = state.lift + state.resistance / (1 + dt * state.drag * inverseMass);
+    const btScalar size = force.x() + force.y() + force.z();
+    if (!(size - size == 0)) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      total[axis] += static_cast<double>(force[axis]);
+      nodes.velocity[axis][i] += force[axis] * (dt * inverseMass);
+    }
   }
+  nodes.velocitiesChanged();
   m_totalForce.setValue(static_cast<btScalar>(total[0]), static_cast<btScalar>(total[1]),
                         static_cast<btScalar>(total[2]));
 }

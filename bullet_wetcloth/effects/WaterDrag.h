@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Effect.h"
+#include "bullet_wetcloth/bullet/PackedNodes.h"
 #include "bullet_wetcloth/effects/WaterSurface.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
 
@@ -63,6 +64,7 @@ class WETCLOTH_EXPORT WaterDrag : public Effect {
   /// Throws std::invalid_argument when the body has no faces, or when the effect is added and there is no water
   /// surface.
   void attach(WetCloth& cloth) override;
+  bool usesPackedNodes() const override { return true; }
   void apply(WetCloth& cloth, const Step& step) override;
   /// When, since the last apply(), the water has reached the body or left it; and for a body in it when the level has
   /// moved by a thousandth of the body's size, its slope by 1e-3, its velocity by more than a tenth, or 0.01 m/s, its
@@ -79,7 +81,6 @@ class WETCLOTH_EXPORT WaterDrag : public Effect {
 
  private:
   struct NodeState {
-    bool isImmersed = false;
     btScalar specificArea = 0;                  // area over mass, 0 when pinned [m^2/kg]
     btScalar drag = 0;                          // force per relative speed, over all triangles [kg/s]
     btVector3 lift = btVector3(0, 0, 0);        // buoyancy [N]
@@ -87,14 +88,19 @@ class WETCLOTH_EXPORT WaterDrag : public Effect {
     btVector3 resistance = btVector3(0, 0, 0);  // [N]
   };
 
-  bool gather(const WetCloth& cloth, const Step& step);
-  void accumulate(const btSoftBody& body, const Step& step);
-  void resist(const RestMesh::Triangle& triangle, const FlatTriangle& shape, const FluidResistance& resistance);
-  void scatter(WetCloth& cloth, const Step& step);
+  using Triangle = std::array<int, 3>;
+
+  bool findImmersed(const PackedNodes& nodes);
+  void look(const WetCloth& cloth, const PackedNodes& nodes, const Step& step);
+  void accumulate(const PackedNodes& nodes, const Step& step);
+  void resist(const Triangle& triangle, const FlatTriangle& shape, const FluidResistance& resistance);
+  void push(PackedNodes& nodes, const Step& step);
 
   Parameters m_parameters;
   const RestMesh* m_mesh = nullptr;
-  std::vector<NodeState> m_nodes;
+  std::vector<Triangle> m_triangles;  // each layer once
+  std::vector<unsigned char> m_isImmersed;
+  std::vector<NodeState> m_nodes;         // of those that are immersed
   std::optional<WaterSurface> m_surface;  // in the last step
   btVector3 m_totalForce = btVector3(0, 0, 0);
   long long m_nodesVisited = 0;

@@ -2,12 +2,13 @@
 #pragma once
 
 #include "bullet_wetcloth/Effect.h"
+#include "bullet_wetcloth/bullet/PackedNodes.h"
 #include "bullet_wetcloth/effects/WindField.h"
+#include "bullet_wetcloth/numerics/TriangleBlocks.h"
+#include "bullet_wetcloth/numerics/TriangleDrag.h"
 
 #include <BulletSoftBody/btSoftBody.h>
 
-#include <array>
-#include <cstddef>
 #include <vector>
 
 namespace wetcloth {
@@ -76,6 +77,7 @@ class WETCLOTH_EXPORT Wind : public Effect {
   Stage stage() const override { return Stage::forces; }
   /// Throws std::invalid_argument when the body has no faces.
   void attach(WetCloth& cloth) override;
+  bool usesPackedNodes() const override { return true; }
   void apply(WetCloth& cloth, const Step& step) override;
   /// When the air at the body's centre has changed by more than a tenth, or 0.1 m/s, since the last apply(); and in a
   /// wind of more than 0.1 m/s when other parameters than its velocity have.
@@ -91,29 +93,26 @@ class WETCLOTH_EXPORT Wind : public Effect {
   btVector3 totalForce() const { return m_totalForce; }
 
  private:
-  // A node as the triangle loop needs it, packed in fours: Bullet's own nodes are several cache lines each. With
-  // the axes also in turned order, a cross product comes out as (z, x, y) without any shuffling.
-  struct alignas(4 * sizeof(btScalar)) NodeState {
-    btScalar position[4];        // x, y, z [m] and area over mass [m^2/kg], 0 when pinned
-    btScalar turnedPosition[4];  // y, z, x and 0
-    btScalar relative[4];        // velocity of the air relative to the node, z, x, y [m/s] and 0
-    btScalar force[4];           // z, x, y [N] and 0
-  };
-  struct Block;
+  using Lane = PackedNodes::Lane;
 
   btVector3 windAtCentre(const WetCloth& cloth, const Step& step) const;
-  void gather(const WetCloth& cloth, const Step& step);
-  void accumulate(const Step& step);
-  void accumulate(Block& block, const Step& step, std::size_t first, std::size_t count);
-  void accumulateFriction(const Step& step);
-  void accumulatePaper(const Step& step);
-  void scatter(WetCloth& cloth, const Step& step);
+  TriangleDrag::Nodes lanesOf(const PackedNodes& nodes);
+  void look(const PackedNodes& nodes, const Step& step);
+  void accumulate(const PackedNodes& nodes, const Step& step);
+  void accumulateFriction(const PackedNodes& nodes, const Step& step);
+  void accumulatePaper(const PackedNodes& nodes, const Step& step);
+  void push(PackedNodes& nodes, const Step& step);
+  template <class Action>
+  void forEachTriangle(Action action) const;
 
   Parameters m_parameters;
-  std::vector<NodeState> m_nodes;
-  std::vector<btScalar> m_drag;                 // force per relative speed, over all triangles of a node [kg/s]
-  std::vector<btScalar> m_nodeAreas;            // when the effect was added, or the body last cut [m^2]
-  std::vector<std::array<int, 3>> m_triangles;  // node indices
+  TriangleBlocks m_triangles;
+  std::vector<btScalar> m_nodeAreas;  // when the effect was added, or the body last cut [m^2]
+  // For each node, and as many more as PackedNodes::kPadding:
+  Lane m_relative[3];   // velocity of the air relative to it [m/s]
+  Lane m_specificArea;  // area over mass [m^2/kg], 0 when pinned
+  Lane m_force[3];      // [N]
+  Lane m_drag;          // force per relative speed, over all its triangles [kg/s]
   btVector3 m_totalForce = btVector3(0, 0, 0);
   btVector3 m_windAtCentre = btVector3(0, 0, 0);
 };

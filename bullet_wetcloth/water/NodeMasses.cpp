@@ -72,6 +72,18 @@ void NodeMasses::scalePinned(Water& water, double factor) const {
   }
 }
 
+bool NodeMasses::areDue(const Water& water, double tolerance) const {
+  if (tolerance == 0) return true;
+  for (std::size_t i = 0; i < m_inverseMass.size(); ++i) {
+    if (m_inverseMass[i] == 0) continue;
+    const double share = water.totalMass(i) * static_cast<double>(m_inverseMass[i]) - 1;
+    const Water::Arrival& arrival = water.arrival(i);
+    const double arrived = (arrival.mass + arrival.runOff) * static_cast<double>(m_inverseMass[i]);
+    if (!(std::fabs(share) <= tolerance && arrived <= tolerance)) return true;
+  }
+  return false;
+}
+
 bool NodeMasses::commit(Water& water) {
   const bool changed = writeNodes(water);
   water.clearArrivals();

@@ -39,6 +39,9 @@ class WETCLOTH_EXPORT NodeMasses {
   /// must be committed.
   bool takeOver(Water& water);
 
+  /// Whether a commit would change a free node's mass by more than this share, or what arrived there is more; with 0
+  /// always.
+  bool areDue(const Water& water, double tolerance) const;
   /// Writes dry mass plus water into each free node, mixes the momentum of what arrived
   /// (v' = (m v + p) / (m + dm)), and refreshes Bullet's caches if a mass changed, which it returns: then the links'
   /// constants are out of date. Takes over what the application set; a node it pinned stays pinned.

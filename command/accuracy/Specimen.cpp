@@ -6,6 +6,7 @@ namespace accuracy {
 Specimen::Specimen(const Settings& settings) : m_world(settings.world) {
   m_body = &m_world.add(settings.patch.build(m_world.worldInfo()), settings.springs ? &*settings.springs : nullptr);
   m_cloth = &m_world.wet().add(*m_body, settings.fabric);
+  m_cloth->setPace(settings.pace);
 }
 
 wetcloth::ClothPatch levelSquare(double side, int nodes, double arealDensity) {

@@ -15,6 +15,7 @@ class Specimen {
   struct Settings {
     wetcloth::ClothPatch patch;
     wetcloth::Fabric fabric = wetcloth::Fabric::cotton();
+    wetcloth::WaterPace pace = wetcloth::WaterPace::exact();
     command::BulletWorld::Settings world;
     std::optional<command::DeformableSprings> springs;  ///< of the deformable world
   };

@@ -4,11 +4,15 @@
 namespace accuracy {
 
 const std::vector<std::pair<std::string, CarryOutStudies>>& studyNames() {
-  static const std::vector<std::pair<std::string, CarryOutStudies>> names{
-      {"absorption", studyAbsorption}, {"diffusion", studyDiffusion},
-      {"splitting", studySplitting},   {"wind", studyWind},
-      {"cloth", studyCloth},           {"mesh", studyMesh},
-      {"collision", studyCollision},   {"paper", studyPaper}};
+  static const std::vector<std::pair<std::string, CarryOutStudies>> names{{"absorption", studyAbsorption},
+                                                                          {"diffusion", studyDiffusion},
+                                                                          {"splitting", studySplitting},
+                                                                          {"wind", studyWind},
+                                                                          {"pace", studyPace},
+                                                                          {"cloth", studyCloth},
+                                                                          {"mesh", studyMesh},
+                                                                          {"collision", studyCollision},
+                                                                          {"paper", studyPaper}};
   return names;
 }
 

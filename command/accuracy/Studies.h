@@ -21,6 +21,8 @@ std::vector<Study> studySplitting(const Effort& effort, const TellProgress& tell
 std::vector<Study> studyWind(const Effort& effort, const TellProgress& tell);
 /// The cloth itself: how far it sags, how it swings, by Bullet's links and springs and by HookeSprings.
 std::vector<Study> studyCloth(const Effort& effort, const TellProgress& tell);
+/// How often water moves, and when masses follow, on cloth that soaks.
+std::vector<Study> studyPace(const Effort& effort, const TellProgress& tell);
 /// Fineness of the mesh, for wind, wicking and a fall.
 std::vector<Study> studyMesh(const Effort& effort, const TellProgress& tell);
 /// The collision checks on real queries with exact answers.

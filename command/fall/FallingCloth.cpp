@@ -67,6 +67,7 @@ FallingCloth::FallingCloth(const FallMode& mode, const FallMode::Case& fallCase,
   m_body = &m_world.add(patch.build(m_world.worldInfo()), &springs);
   if (!fallCase.inAir) return;
   wetcloth::WetCloth& cloth = m_world.wet().add(*m_body, mode.fabric);
+  cloth.setPace(wetcloth::WaterPace::exact());
   cloth.add<wetcloth::Wind>(mode.air);
   wet(cloth, fallCase.massRatio);
 }

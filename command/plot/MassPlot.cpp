@@ -25,6 +25,7 @@ PlotSeries absorb(wetcloth::Fabric fabric, const wetcloth::Absorption::Parameter
   patch.arealDensity = fabric.arealDensity;
   btSoftBody& body = world.add(patch.build(world.worldInfo()));
   wetcloth::WetCloth& cloth = world.wet().add(body, fabric);
+  cloth.setPace(wetcloth::WaterPace::exact());
   cloth.add<wetcloth::Absorption>(absorption);
 
   const int middle = patch.node(2, 2);

@@ -30,6 +30,7 @@ class Strip {
     m_patch.pinnedEdges = {wetcloth::ClothPatch::Edge::left, wetcloth::ClothPatch::Edge::right};
     btSoftBody& body = m_world.add(m_patch.build(m_world.worldInfo()));
     m_cloth = &m_world.wet().add(body, wetcloth::Fabric::cotton());
+    m_cloth->setPace(wetcloth::WaterPace::exact());
     m_cloth->add<wetcloth::Immersion>();
     m_cloth->add<wetcloth::Diffusion>();
     if (feelsGravity) m_cloth->add<wetcloth::Seepage>();

@@ -70,6 +70,7 @@ struct ClothScene {
   std::vector<int> pinnedNodes;  ///< of a mesh; a patch knows its own
   wetcloth::Fabric fabric;
   double initialSaturation = 0;
+  wetcloth::WaterPace pace;
   double friction = 0.5;          ///< btSoftBody::Config::kDF, [0, 1]
   double damping = 0;             ///< btSoftBody::Config::kDP, [0, 1]
   double margin = 0.02;           ///< of collision [m]

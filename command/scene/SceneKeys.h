@@ -21,8 +21,8 @@ inline const KeyTable scene{
      "duration_s", "implicit", "quality", "cloths", "colliders", "water", "camera"}};
 
 inline const KeyTable cloth{"cloth",
-                            {"name", "patch", "obj", "fabric", "pins", "initial_saturation", "friction", "damping",
-                             "margin_m", "collisions", "self_collision", "clusters", "twist", "motion",
+                            {"name", "patch", "obj", "fabric", "pins", "initial_saturation", "water_pace", "friction",
+                             "damping", "margin_m", "collisions", "self_collision", "clusters", "twist", "motion",
                              "spring_stiffness_n_m", "bending_stiffness_n_m", "spring_damping_n_s_m", "effects"}};
 
 inline const KeyTable patch{"patch",
@@ -32,6 +32,8 @@ inline const KeyTable patch{"patch",
 inline const KeyTable fabric{
     "fabric",
     {"preset", "name", "capacity_kg_per_kg", "time_constant_s", "areal_density_kg_m2", "colour", "roughness"}};
+
+inline const KeyTable waterPace{"waterPace", {"every_substeps", "mass_tolerance"}};
 
 inline const KeyTable obj{"obj", {"file", "scale", "rotation_deg", "translation_m"}};
 
@@ -58,9 +60,9 @@ inline const KeyTable sphere{"sphere", {"centre_m", "radius_m"}};
 inline const KeyTable camera{"camera", {"direction", "field_of_view_deg"}};
 
 /// But for those of effects, which stand in the catalogue.
-inline const std::vector<const KeyTable*> all{&scene,         &obj,  &cloth,  &patch,  &fabric, &pins,
-                                              &exposureBelow, &gust, &twist,  &motion, &water,  &collider,
-                                              &plane,         &box,  &sphere, &camera};
+inline const std::vector<const KeyTable*> all{&scene,    &waterPace,     &obj,  &cloth,  &patch,  &fabric,
+                                              &pins,     &exposureBelow, &gust, &twist,  &motion, &water,
+                                              &collider, &plane,         &box,  &sphere, &camera};
 
 }  // namespace keys
 }  // namespace command

@@ -198,6 +198,14 @@ void readSprings(const JsonCursor& cursor, WorldKind world, SpringScene& springs
   readNumber(cursor, "spring_damping_n_s_m", Range::notNegative(), springs.damping);
 }
 
+wetcloth::WaterPace readPace(JsonCursor cursor) {
+  cursor.expectObject(keys::waterPace);
+  wetcloth::WaterPace pace;
+  if (const auto every = cursor.find("every_substeps")) pace.everySubsteps = every->integer(1, 1000);
+  readNumber(cursor, "mass_tolerance", Range{0, 0.1, true, "in [0, 0.1]"}, pace.massTolerance);
+  return pace;
+}
+
 void readDamping(const JsonCursor& cursor, WorldKind world, ClothScene& cloth) {
   const auto found = cursor.find("damping");
   if (!found) return;
@@ -304,6 +312,7 @@ ClothScene readCloth(JsonCursor cursor, Scene& scene, const EffectCatalogue& cat
   if (auto* patch = std::get_if<ClothPatch>(&cloth.shape)) patch->arealDensity = cloth.fabric.arealDensity;
   if (const auto pins = cursor.find("pins")) readPins(*pins, cloth);
   readNumber(cursor, "initial_saturation", Range::fraction(), cloth.initialSaturation);
+  if (const auto pace = cursor.find("water_pace")) cloth.pace = readPace(*pace);
   readNumber(cursor, "friction", Range::fraction(), cloth.friction);
   readDamping(cursor, scene.world, cloth);
   readNumber(cursor, "margin_m", Range::positive(), cloth.margin);

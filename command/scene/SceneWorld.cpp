@@ -56,6 +56,7 @@ SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_drops(
     atPointer(scene, pointer, [&] { addCloth(scene.cloths[i]); });
     if (kind == Kind::plainBullet) continue;
     atPointer(scene, pointer, [&] { m_cloths.push_back(&m_wetWorld->add(m_bodies.back(), scene.cloths[i].fabric)); });
+    m_cloths.back()->setPace(scene.cloths[i].pace);
     addEffects(i, *m_cloths.back());
     m_cloths.back()->setSaturation(scene.cloths[i].initialSaturation);
   }

@@ -7,6 +7,7 @@
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/CallEffect.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Patches.h"
 
@@ -47,7 +48,7 @@ TEST_P(TickCallbackChain, TheSlotIsTheApplicationsWhileNoEffectNeedsIt) {
   Application application;
   scene.world().setInternalTickCallback(Application::tick, &application, false);
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   addRecorder(cloth, application, Stage::forces, "forces");
   EXPECT_FALSE(wet.isTickHooked());
   scene.bullet().step(1);
@@ -59,7 +60,7 @@ TEST_P(TickCallbackChain, TheApplicationComesFirst) {
   Application application;
   scene.world().setInternalTickCallback(Application::tick, &application, false);
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   addRecorder(cloth, application, Stage::contact, "contact");
   addRecorder(cloth, application, Stage::sources, "sources");
   EXPECT_TRUE(wet.isTickHooked());
@@ -73,7 +74,7 @@ TEST_P(TickCallbackChain, TheSlotIsGivenBackWithTheLastEffect) {
   Application application;
   scene.world().setInternalTickCallback(Application::tick, &application, false);
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   wetcloth::Effect& first = addRecorder(cloth, application, Stage::contact, "first");
   wetcloth::Effect& second = addRecorder(cloth, application, Stage::contact, "second");
   cloth.remove(first);
@@ -94,7 +95,7 @@ TEST_P(TickCallbackChain, DetachingPutsTheApplicationsCallbackBack) {
   scene.world().setInternalTickCallback(Application::tick, &application, false);
   {
     wetcloth::WetClothWorld wet(scene.world());
-    addRecorder(wet.add(scene.body()), application, Stage::contact, "contact");
+    addRecorder(exactly(wet.add(scene.body())), application, Stage::contact, "contact");
   }
   scene.bullet().step(1);
   EXPECT_EQ(application.calls, Calls{"application"});
@@ -105,7 +106,7 @@ TEST_P(TickCallbackChain, NothingIsLeftBehind) {
   Application application;
   {
     wetcloth::WetClothWorld wet(scene.world());
-    addRecorder(wet.add(scene.body()), application, Stage::contact, "contact");
+    addRecorder(exactly(wet.add(scene.body())), application, Stage::contact, "contact");
   }
   scene.bullet().step(1);  // a stale pointer would crash here
   EXPECT_TRUE(application.calls.empty());
@@ -116,7 +117,7 @@ TEST_P(TickCallbackChain, ThePreTickCallbackMayBeSetLater) {
   BodyScene scene(GetParam());
   Application application;
   wetcloth::WetClothWorld wet(scene.world());
-  addRecorder(wet.add(scene.body()), application, Stage::contact, "contact");
+  addRecorder(exactly(wet.add(scene.body())), application, Stage::contact, "contact");
   scene.world().setInternalTickCallback(Application::preTick, &application, true);
   scene.bullet().step(1);
   EXPECT_EQ(application.calls, (Calls{"pre", "contact"}));
@@ -130,7 +131,7 @@ TEST_P(TickCallbackChain, OverwritingTheSlotIsNoticed) {
   wetcloth::WetClothWorld wet(scene.world());
   Calls messages;
   wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   addRecorder(cloth, application, Stage::contact, "contact");
   EXPECT_TRUE(messages.empty());
   scene.world().setInternalTickCallback(Application::otherTick, &application, false);
@@ -148,7 +149,7 @@ TEST_P(TickCallbackChain, AnApplicationThatTookTheSlotMayCallUsItself) {
   {
     wetcloth::WetClothWorld wet(scene.world());
     application.wet = &wet;
-    addRecorder(wet.add(scene.body()), application, Stage::contact, "contact");
+    addRecorder(exactly(wet.add(scene.body())), application, Stage::contact, "contact");
     scene.world().setInternalTickCallback(Application::tickThatCallsUs, &application, false);
     scene.bullet().step(2);
     EXPECT_EQ(application.calls, (Calls{"application", "contact", "application", "contact"}));
@@ -165,7 +166,7 @@ TEST_P(TickCallbackChain, InManualModeTheSlotIsTheApplications) {
   scene.world().setInternalTickCallback(Application::tickThatCallsUs, &application, false);
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   application.wet = &wet;
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   addRecorder(cloth, application, Stage::contact, "contact");
   addRecorder(cloth, application, Stage::forces, "forces");
   EXPECT_FALSE(wet.isTickHooked());
@@ -179,7 +180,7 @@ TEST_P(TickCallbackChain, AnApplicationsExceptionDoesNotSilenceUs) {
   scene.world().setInternalTickCallback([](btDynamicsWorld*, btScalar) { throw std::runtime_error("its own"); },
                                         &application, false);
   wetcloth::WetClothWorld wet(scene.world());
-  addRecorder(wet.add(scene.body()), application, Stage::contact, "contact");
+  addRecorder(exactly(wet.add(scene.body())), application, Stage::contact, "contact");
   EXPECT_THROW(scene.bullet().step(1), std::runtime_error);
   EXPECT_THROW(scene.bullet().step(1), std::runtime_error) << "it is called in every step";
 }
@@ -189,7 +190,7 @@ TEST_P(TickCallbackChain, AnApplicationsExceptionDoesNotSilenceUs) {
 TEST_P(TickCallbackChain, AnEffectSeesTheSubstepOfItsPreTick) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   std::vector<wetcloth::Step> steps;
   const auto record = [&steps](wetcloth::WetCloth&, const wetcloth::Step& step) { steps.push_back(step); };
   addCall(cloth, record, Stage::contact);
@@ -207,7 +208,7 @@ TEST_P(TickCallbackChain, AThrowingEffectIsRemovedAndTheSlotGivenBack) {
   wetcloth::WetClothWorld wet(scene.world());
   Calls messages;
   wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   addCall(
       cloth, [](wetcloth::WetCloth&, const wetcloth::Step&) { throw std::runtime_error("no"); }, Stage::contact);
   scene.bullet().step(2);
@@ -221,7 +222,7 @@ TEST_P(TickCallbackChain, AnEffectThatDoesNothingChangesNothing) {
   BodyScene without(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(with.world());
   addCall(
-      wet.add(with.body()), [](wetcloth::WetCloth&, const wetcloth::Step&) {}, Stage::contact);
+      exactly(wet.add(with.body())), [](wetcloth::WetCloth&, const wetcloth::Step&) {}, Stage::contact);
   with.bullet().step(60);
   without.bullet().step(60);
   EXPECT_TRUE(sameBits(stateOf(with.body()), stateOf(without.body())));
@@ -232,7 +233,8 @@ TEST(TickCallbackOfASleeper, DoesNotRun) {
   wetcloth::WetClothWorld wet(scene.world());
   int calls = 0;
   addCall(
-      wet.add(scene.body()), [&calls](wetcloth::WetCloth&, const wetcloth::Step&) { ++calls; }, Stage::contact);
+      exactly(wet.add(scene.body())), [&calls](wetcloth::WetCloth&, const wetcloth::Step&) { ++calls; },
+      Stage::contact);
   scene.bullet().step(2000);
   ASSERT_FALSE(scene.body().isActive());
   const int before = calls;

@@ -170,6 +170,7 @@ TEST(WaterCycle, DiffusionFromAWetEdgeIsTheErrorFunctions) {
     for (int node = 0; node < 2 * columns; ++node) exposure.push_back(node % columns == 0 ? 1 : 0);
     Json scene = floatingScene({{"diffusion", diffusion}, {"absorption", {{"exposure", exposure}}}}, 20);
     scene["substeps"] = 1;
+    clothOf(scene)["water_pace"]["every_substeps"] = 1;
     clothOf(scene)["patch"]["columns"] = columns;
     clothOf(scene)["patch"]["rows"] = 2;
     clothOf(scene)["fabric"]["time_constant_s"] = 1e-3;
@@ -219,6 +220,7 @@ TEST(WaterCycle, ALowHemDripsToItsHoldingSaturationAndTheRecordDecays) {
 TEST(WaterCycle, DropsOfNoMassAreReportedAtOnce) {
   Json scene = uprightScene({{"dripping", {{"drop_mass_kg", 0}}}}, 0.2);
   scene["substeps"] = 1;
+  clothOf(scene)["water_pace"]["every_substeps"] = 1;
   clothOf(scene)["initial_saturation"] = 1;
   const Json drips = runScene(scene).at("drips");
   EXPECT_EQ(drips.at("count"), 10 * 5);  // steps x nodes of the hem

@@ -21,6 +21,7 @@ TEST(Consumer, FindsEffectsWithoutRtti) {
   BodyScene scene(WorldKind::softRigid);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
+  cloth.setPace(wetcloth::WaterPace::exact());
   EXPECT_EQ(consumer::stepsOfSponge(cloth), -1);
   consumer::addSponge(cloth);
   scene.bullet().step(3);

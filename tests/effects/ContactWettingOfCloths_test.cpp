@@ -7,6 +7,7 @@
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
 #include "tests/support/ContactScene.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Measures.h"
 #include "tests/support/RigidBody.h"
@@ -30,7 +31,7 @@ class TwoTowels {
       scene.bullet().addForce(*m_upper, bulletSprings(5));
     }
     scene.addBulletSprings(5);
-    upperCloth = &scene.wet().add(*m_upper);
+    upperCloth = &exactly(scene.wet().add(*m_upper));
   }
   ~TwoTowels() {
     if (m_upper) removeUpper();

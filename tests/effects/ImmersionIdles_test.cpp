@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/effects/Immersion.h"
 #include "tests/support/BodyScene.h"
 #include "tests/support/BulletWorld.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
 #include "tests/support/Patches.h"
@@ -33,7 +34,7 @@ class ImmersionInWorld : public InEveryWorld {};
 
 struct Pool {
   Pool(WorldKind kind, const wetcloth::ClothPatch& patch, double level, const btVector3& gravity = kEarthGravity)
-      : scene(kind, patch, gravity), wet(scene.world()), cloth(wet.add(scene.body(), fabricOf(1, 0.01))) {
+      : scene(kind, patch, gravity), wet(scene.world()), cloth(exactly(wet.add(scene.body(), fabricOf(1, 0.01)))) {
     scene.body().setActivationState(DISABLE_DEACTIVATION);
     scene.addBulletSprings(20, 0.1, SpringDamping::everyDirection);
     effect = &cloth.add<Immersion>({levelAt(level)});
@@ -136,7 +137,7 @@ TEST_P(ImmersionInWorld, GoesOnWhenTheBodyIsCutEvenIfThereIsNoWaterAtThatMoment)
   scene.bullet().info().water_offset = -2;
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog([](const std::string&) {});
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 0.5));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(1, 0.5)));
   cloth.add<Immersion>();
   scene.bullet().step(10);
   const double held = cloth.ledger().held;

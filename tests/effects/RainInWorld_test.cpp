@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/effects/Rain.h"
 #include "tests/support/BodyScene.h"
 #include "tests/support/BulletWorld.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Measures.h"
 #include "tests/support/Patches.h"
@@ -24,7 +25,7 @@ TEST_P(RainInWorld, PushesAFreeClothByItsMomentum) {
   BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   scene.body().setActivationState(DISABLE_DEACTIVATION);
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   Rain::Parameters rain;
   rain.flux = 0.02;
   cloth.add<Rain>(rain);
@@ -40,7 +41,7 @@ TEST_P(RainInWorld, PushesAFreeClothByItsMomentum) {
 TEST_P(RainInWorld, WetsPinnedNodesAndLeavesThemPinned) {
   BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   Rain::Parameters rain;
   rain.direction = btVector3(0, 0, -1);  // across the hanging cloth
   rain.flux = 0.1;
@@ -58,7 +59,7 @@ TEST_P(RainInWorld, WetsPinnedNodesAndLeavesThemPinned) {
 TEST_P(RainInWorld, KeepsABodyAwakeThatItsDropsWouldCarryOff) {
   BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   cloth.setSaturation(1);
   Rain& rain = cloth.add<Rain>();
   scene.body().setActivationState(ISLAND_SLEEPING);
@@ -75,7 +76,7 @@ TEST_P(RainInWorld, GoesOnWhenTheBodyIsCut) {
     BodyScene scene(GetParam(), hangingPatch(5));
     wetcloth::WetClothWorld wet(scene.world());
     wet.setLog([](const std::string&) {});
-    wetcloth::WetCloth& cloth = wet.add(scene.body());
+    wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
     Rain::Parameters parameters;
     parameters.direction = btVector3(0, 0, 1);
     parameters.selfShelter = selfShelter;
@@ -96,7 +97,7 @@ TEST_P(RainInWorld, WritesNoNumberThatIsNone) {
   for (const bool selfShelter : {false, true}) {
     BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
     wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
-    wetcloth::WetCloth& cloth = wet.add(scene.body());
+    wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
     Rain::Parameters parameters;
     parameters.selfShelter = selfShelter;
     cloth.add<Rain>(parameters);

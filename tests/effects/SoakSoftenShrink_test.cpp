@@ -8,6 +8,7 @@
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/CallEffect.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
 #include "tests/support/Patches.h"
@@ -84,7 +85,7 @@ TEST_P(SoakSoftenShrink, HangingRopeThereAndBack) {
     return rope;
   });
   wetcloth::WetClothWorld wet(scene.world());
-  WetCloth& cloth = wet.add(scene.body(), fabricOf(0.84, 0.1));
+  WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(0.84, 0.1)));
   bool dries = false;
   cloth.add<HookeSprings>(springsOf(kDryStiffness));
   cloth.add<Swelling>({-kShrinkage});
@@ -134,7 +135,7 @@ TEST_P(SoakSoftenShrink, PatchThereAndBack) {
   BodyScene scene(GetParam(), patch);
   scene.body().setActivationState(DISABLE_DEACTIVATION);
   wetcloth::WetClothWorld wet(scene.world());
-  WetCloth& cloth = wet.add(scene.body(), fabricOf(0.84, 0.1));
+  WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(0.84, 0.1)));
   bool dries = false;
   Absorption& soak = cloth.add<Absorption>({0.0});
   addDrying(cloth, dries);

@@ -6,6 +6,7 @@
 #include "tests/support/BodyScene.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
 #include "tests/support/Measures.h"
@@ -104,7 +105,7 @@ TEST_P(SplashInWorld, ARopeCatchesNone) {
         btSoftBodyHelpers::CreateRope(info, btVector3(0, 0, 0), btVector3(1, 0, 0), 3, 0));
   });
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   try {
     cloth.add<Splash>();
     ADD_FAILURE();
@@ -118,7 +119,7 @@ TEST_P(SplashInWorld, PushesAFreeClothByItsMomentum) {
   BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   scene.body().setActivationState(DISABLE_DEACTIVATION);
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(0.1, 1));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(0.1, 1)));
   cloth.add<Splash>(onEverything(0.02));
   const double dry = cloth.totalMass();
   scene.bullet().step(128, btScalar(1) / 256);
@@ -133,7 +134,7 @@ TEST_P(SplashInWorld, WetsPinnedNodesGoesOnWhenTheBodyIsCutAndClosesTheLedger) {
   scene.addBulletSprings(20, 0.1, SpringDamping::everyDirection);
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog([](const std::string&) {});
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   Splash::Parameters parameters;
   parameters.region = Splash::Cone{btVector3(btScalar(0.5), btScalar(0.5), 3), 0.3, 5};
   parameters.velocity = btVector3(0, 0, -3);
@@ -156,7 +157,7 @@ TEST_P(SplashInWorld, WetsPinnedNodesGoesOnWhenTheBodyIsCutAndClosesTheLedger) {
 TEST_P(SplashInWorld, KeepsABodyAwakeThatItsDropsWouldCarryOff) {
   BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   cloth.setSaturation(1);
   Splash& splash = cloth.add<Splash>(onEverything(0.01));
   scene.body().setActivationState(ISLAND_SLEEPING);
@@ -173,7 +174,7 @@ TEST_P(SplashInWorld, WritesNoNumberThatIsNone) {
     for (const double dt : {1e-6, 1e3}) {
       BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
       wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
-      wetcloth::WetCloth& cloth = wet.add(scene.body());
+      wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
       Splash::Parameters parameters = onEverything(10);
       if (isCone) parameters.region = Splash::Cone{btVector3(btScalar(0.5), 2, btScalar(0.5)), 0.8, 10};
       cloth.add<Splash>(parameters);

@@ -35,6 +35,7 @@ const Case kCase = {WorldKind::softRigid, Story::hanging};
 
 TEST(StateOfOwnEffect, IsSavedAndRestored) {
   StateScene early(kCase);
+  early.cloth().setPace(wetcloth::WaterPace::exact());
   auto& counting = early.cloth().add<Counting>();
   early.step(20);
   EXPECT_GT(counting.steps(), 20);

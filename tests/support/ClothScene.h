@@ -15,14 +15,15 @@ inline constexpr double kSubstep = 1.0 / 240;
 /// only with such a step can its motion be compared more closely than 1e-7.
 inline constexpr double kExactSubstep = 1.0 / 256;
 
-/// A BodyScene whose body is a wet cloth, and never sleeps: the deformable world puts slow bodies to sleep, which would
-/// stop what is measured.
+/// A BodyScene whose body is a wet cloth, whose water moves in every substep, so that each can be held against the
+/// laws, and which never sleeps: the deformable world puts slow bodies to sleep, which would stop what is measured.
 class ClothScene : public BodyScene {
  public:
   ClothScene(WorldKind kind, const btVector3& gravity, const BodyBuilder& builder,
              const wetcloth::Fabric& fabric = wetcloth::Fabric::cotton(), wetcloth::Hook hook = wetcloth::Hook::preTick)
       : BodyScene(kind, builder, gravity), m_wet(world(), hook), m_cloth(m_wet.add(body(), fabric)) {
     body().setActivationState(DISABLE_DEACTIVATION);
+    m_cloth.setPace(wetcloth::WaterPace::exact());
   }
   ClothScene(WorldKind kind, const btVector3& gravity, const wetcloth::ClothPatch& patch,
              const wetcloth::Fabric& fabric = wetcloth::Fabric::cotton(), wetcloth::Hook hook = wetcloth::Hook::preTick)

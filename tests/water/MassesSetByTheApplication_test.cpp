@@ -4,6 +4,7 @@
 
 #include "tests/support/BodyScene.h"
 #include "tests/support/CallEffect.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Measures.h"
 #include "tests/support/Patches.h"
@@ -20,7 +21,7 @@ class MassesSet : public InEveryWorld {
  protected:
   BodyScene scene{GetParam(), hangingPatch(9)};
   wetcloth::WetClothWorld wet{scene.world()};
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(0.84, 1));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(0.84, 1)));
 
   double sum(double (wetcloth::WetCloth::*of)(int) const) const {
     double total = 0;

@@ -6,6 +6,7 @@
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/CallEffect.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
 #include "tests/support/Patches.h"
@@ -46,7 +47,7 @@ class WaterBalance : public InEveryWorld {};
 TEST_P(WaterBalance, HoldsInEveryStep) {
   BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(2, 0.5));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(2, 0.5)));
   cloth.setSaturation(0.3);
   cloth.add<wetcloth::Absorption>({0.7});
   addCall(cloth, leak, wetcloth::Stage::losses);
@@ -63,7 +64,7 @@ TEST_P(WaterBalance, HoldsInEveryStep) {
 TEST_P(WaterBalance, IsClosedAfterAHundredThousandSteps) {
   BodyScene scene(GetParam(), squarePatch(2), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(2, 0.5));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(2, 0.5)));
   cloth.add<wetcloth::Absorption>({std::vector<double>{1, 0.5, 0.1, 0}});
   addCall(cloth, leak, wetcloth::Stage::losses);
   addCall(cloth, swap, wetcloth::Stage::transport);
@@ -76,7 +77,7 @@ TEST_P(WaterBalance, IsClosedAfterAHundredThousandSteps) {
 TEST(WaterBalanceWithBulletsStep, IsClosedAfterAHundredThousandSteps) {
   BodyScene scene(WorldKind::softRigid, squarePatch(2));
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(2, 0.5));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(2, 0.5)));
   cloth.add<wetcloth::Absorption>();
   addCall(cloth, leak, wetcloth::Stage::losses);
   scene.body().m_nodes[0].m_im = 0;  // so that it hangs and does not fall out of the float's range
@@ -88,7 +89,7 @@ TEST(WaterBalanceWithBulletsStep, IsClosedAfterAHundredThousandSteps) {
 TEST_P(WaterBalance, HoldsWhenWaterIsSetByHand) {
   BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(2, 0.5));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(2, 0.5)));
   cloth.add<wetcloth::Absorption>();
   scene.bullet().step(10);
   const double absorbed = cloth.ledger().absorbed;
@@ -105,7 +106,7 @@ TEST_P(WaterBalance, HoldsWhenWaterIsSetByHand) {
 TEST_P(WaterBalance, HoldsWhenAnEffectTakesTooMuch) {
   BodyScene scene(GetParam(), squarePatch(3));
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   cloth.setSaturation(0.5);
   const double before = cloth.ledger().held;
   addCall(

@@ -8,6 +8,7 @@
 #include "tests/support/BulletWorld.h"
 #include "tests/support/CallEffect.h"
 #include "tests/support/ContactScene.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
 #include "tests/support/Measures.h"
@@ -54,7 +55,7 @@ class OneCloth {
   explicit OneCloth(WorldKind kind)
       : m_scene(kind, squarePatch(4)),
         m_wet(m_scene.world(), wetcloth::Hook::manual),
-        cloth(m_wet.add(m_scene.body(), fabricOf(200, 1))) {
+        cloth(exactly(m_wet.add(m_scene.body(), fabricOf(200, 1)))) {
     scatterVelocities(m_scene.body());
   }
   /// Water of 100 times a node's dry mass falls on node 5, at 9 m/s, and a little on its neighbour.
@@ -162,8 +163,8 @@ class TwoCloths {
     m_other = squarePatch(4).build(m_scene.bullet().info());
     m_other->m_cfg.collisions = contactFlags(kind);
     m_scene.bullet().add(*m_other);
-    first = &m_wet.add(m_scene.body(), fabricOf(200, 1));
-    second = &m_wet.add(*m_other, fabricOf(200, 1));
+    first = &exactly(m_wet.add(m_scene.body(), fabricOf(200, 1)));
+    second = &exactly(m_wet.add(*m_other, fabricOf(200, 1)));
     scatterVelocities(first->body(), 2);
     scatterVelocities(second->body(), 5);
     touch(first->body(), second->body());

@@ -6,6 +6,7 @@
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/CallEffect.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
 #include "tests/support/Patches.h"
@@ -65,7 +66,7 @@ TEST_P(WaterMomentum, IsConservedWhenWaterLands) {
   const btVector3 waterVelocity(2, -9, btScalar(0.5));
   BodyScene scene(GetParam(), patch);
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(3, 0.5));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(3, 0.5)));
   cloth.add<wetcloth::Absorption>(rain(cloth, waterVelocity));
   scatterVelocities(scene.body());
   const Vector before = momentumOfFreeNodes(cloth);
@@ -85,7 +86,7 @@ TEST_P(WaterMomentum, GivesEachNodeTheVelocityOfAnInelasticImpact) {
   const btVector3 waterVelocity(2, -9, btScalar(0.5));
   BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(3, 0.5));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(3, 0.5)));
   cloth.setSaturation(0.25);
   cloth.add<wetcloth::Absorption>(rain(cloth, waterVelocity));
   scatterVelocities(scene.body());
@@ -109,7 +110,7 @@ TEST_P(WaterMomentum, PinnedNodesHoldWaterAndStayPinned) {
   patch.pinnedNodes = {0, 6, 13};
   BodyScene scene(GetParam(), patch);
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(3, 0.5));
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(3, 0.5)));
   wetcloth::Absorption::Parameters parameters;
   parameters.waterVelocity = btVector3(2, -9, 0);
   cloth.add<wetcloth::Absorption>(parameters);
@@ -129,7 +130,7 @@ TEST_P(WaterMomentum, PinnedNodesHoldWaterAndStayPinned) {
 TEST_P(WaterMomentum, LeavingWaterChangesNoVelocity) {
   BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   cloth.setSaturation(1);
   addCall(
       cloth,
@@ -151,7 +152,7 @@ TEST_P(WaterMomentum, LeavingWaterChangesNoVelocity) {
 TEST_P(WaterMomentum, ThePapersWayKeepsVelocities) {
   BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   cloth.add<wetcloth::Absorption>(wetcloth::Absorption::Parameters::paper());
   scatterVelocities(scene.body());
   const std::vector<btScalar> before = stateOf(scene.body());

@@ -7,6 +7,7 @@
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/CallEffect.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Measures.h"
 #include "tests/support/Patches.h"
@@ -35,7 +36,7 @@ void scatterVelocities(btSoftBody& body) {
 /// 16 nodes with different water and velocities, and only our part of the step.
 struct Moving {
   explicit Moving(WorldKind kind)
-      : scene(kind, squarePatch(4)), wet(scene.world(), wetcloth::Hook::manual), cloth(wet.add(scene.body())) {
+      : scene(kind, squarePatch(4)), wet(scene.world(), wetcloth::Hook::manual), cloth(exactly(wet.add(scene.body()))) {
     cloth.setHeld(unevenWater(cloth));
     scatterVelocities(scene.body());
   }

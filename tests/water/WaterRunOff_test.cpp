@@ -5,6 +5,7 @@
 #include "tests/support/BodyScene.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/CallEffect.h"
+#include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
 #include "tests/support/Measures.h"
@@ -41,7 +42,9 @@ void scatterVelocities(btSoftBody& body) {
 /// One cloth, only our part of the step, and what happens to its water in it.
 struct Struck {
   explicit Struck(WorldKind kind, const wetcloth::ClothPatch& patch = squarePatch(4))
-      : scene(kind, patch), wet(scene.world(), wetcloth::Hook::manual), cloth(wet.add(scene.body(), fabricOf(2, 1))) {
+      : scene(kind, patch),
+        wet(scene.world(), wetcloth::Hook::manual),
+        cloth(exactly(wet.add(scene.body(), fabricOf(2, 1)))) {
     scatterVelocities(scene.body());
   }
   double mass(int node) { return cloth.dryMass(node) + cloth.held(node); }
@@ -170,7 +173,7 @@ TEST_P(WaterRunOff, ReachesBulletsNextStep) {
   BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   scene.body().setActivationState(DISABLE_DEACTIVATION);
   wetcloth::WetClothWorld wet(scene.world());
-  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
   addCall(
       cloth,
       [](wetcloth::WetCloth& c, const wetcloth::Step&) {

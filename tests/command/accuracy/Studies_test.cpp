@@ -70,6 +70,24 @@ void expectWhole(const Study& study) {
 // 1/60 s to 1 s, of a process that takes seconds: at the coarse end the next order still shows by a few percent.
 constexpr double kCoarse = 0.06;
 
+// Water in every substep is what the others are compared with.
+TEST(Studies, TheDefaultPaceOfWaterStaysBelowATenthOfAPercent) {
+  const std::vector<Study> studies = quick(accuracy::studyPace);
+  const Study& rate = named(studies, "water_rate");
+  const Study& tolerance = named(studies, "mass_tolerance");
+  expectWhole(rate);
+  expectWhole(tolerance);
+  ASSERT_EQ(wetcloth::WaterPace().everySubsteps, 5);
+  ASSERT_EQ(wetcloth::WaterPace().massTolerance, 1e-3);
+  for (const std::string soaking :
+       {"cotton falls", "cotton is hung up in wind", "high absorption falls", "high absorption is hung up in wind"}) {
+    EXPECT_EQ(errorOf(rate, soaking + ", every 1"), 0) << soaking;
+    EXPECT_LT(errorOf(rate, soaking + ", every 5"), 1e-3) << soaking;
+    EXPECT_LT(errorOf(tolerance, soaking + ", 0.1 %"), 1e-3) << soaking;
+    EXPECT_GT(errorOf(rate, soaking + ", every 25"), errorOf(rate, soaking + ", every 5")) << soaking;
+  }
+}
+
 TEST(Studies, AbsorptionHasTheOrdersOfItsIntegrators) {
   const std::vector<Study> studies = quick(accuracy::studyAbsorption);
   const Study& study = named(studies, "absorption");

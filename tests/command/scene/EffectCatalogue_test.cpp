@@ -102,6 +102,7 @@ std::string textOf(const std::string& file) {
 Json sceneWithDew() {
   Json scene = smallScene();
   scene["cloths"][0]["effects"] = {{"dew", {{"water_kg", 2e-6}}}};
+  scene["cloths"][0]["water_pace"]["every_substeps"] = 1;
   scene["water"] = {{"level_m", -10}};
   return scene;
 }

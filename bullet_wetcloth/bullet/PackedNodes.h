@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// The nodes' places, velocities and inverse masses in arrays of their own, one for each axis. Bullet's nodes are
+/// several cache lines each, and a loop over them cannot work on several at once.
+///
+/// Who changes velocities here says so with velocitiesChanged(). Between hold() and release() the arrays stand for the
+/// nodes: they are read once, by the first who asks, and written back once, at the end; otherwise they are read each
+/// time, and written back at once.
+class WETCLOTH_EXPORT PackedNodes {
+ public:
+  /// Each array has this many elements more than there are nodes, all 0, so that loops may work in blocks of this size.
+  static constexpr std::size_t kPadding = 64;
+  /// One number for each node.
+  using Lane = std::vector<btScalar>;
+
+  /// For the nodes of this body, which must outlive it; `deformable` in that world of Bullet.
+  PackedNodes(btSoftBody& body, bool deformable) : m_body(body), m_deformable(deformable) {}
+
+  /// Makes room for the nodes that the body has now.
+  void fit();
+  /// The nodes as they are now, read from the body if need be. fit() must have been called since the body changed.
+  void read();
+  /// Nodes.
+  std::size_t size() const { return m_size; }
+
+  Lane position[3];  ///< [m]
+  Lane velocity[3];  ///< [m/s]
+  Lane inverseMass;  ///< [1/kg], 0 of a pinned node
+
+  /// Velocities were changed: they must be finite, and those of pinned nodes as they were.
+  void velocitiesChanged();
+  /// From now on the arrays stand for the nodes.
+  void hold() { m_isHeld = true; }
+  /// Writes back what changed. From now on the nodes stand for themselves.
+  void release();
+
+ private:
+  void write();
+
+  btSoftBody& m_body;
+  bool m_deformable;
+  std::size_t m_size = 0;
+  bool m_isHeld = false;
+  bool m_isRead = false;  // and held ever since
+  bool m_hasChanged = false;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

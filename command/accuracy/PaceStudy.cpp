@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Zlib
+#include "command/accuracy/Specimen.h"
+#include "command/accuracy/Studies.h"
+
+#include "command/timing/ProcessorTime.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace accuracy {
+namespace {
+
+using wetcloth::Fabric;
+using wetcloth::WaterPace;
+
+constexpr int soakingSide = 25;
+
+/// What soaks, and how it moves.
+struct Soaking {
+  const char* name;
+  Fabric fabric;
+  bool isHung;      ///< by two corners, for six seconds; else it falls flat in still air for two
+  double duration;  ///< [s]
+};
+
+const std::vector<Soaking>& soakings() {
+  static const std::vector<Soaking> all{{"cotton falls", Fabric::cotton(), false, 2},
+                                        {"cotton is hung up in wind", Fabric::cotton(), true, 6},
+                                        {"high absorption falls", Fabric::highAbsorption(), false, 2},
+                                        {"high absorption is hung up in wind", Fabric::highAbsorption(), true, 6}};
+  return all;
+}
+
+/// Height of the nodes' centre after each step [m].
+std::vector<double> path(const Soaking& soaking, const WaterPace& pace, double dt, double* seconds) {
+  Specimen::Settings settings;
+  settings.patch = levelSquare(1, soakingSide, soaking.fabric.arealDensity);
+  using Corner = wetcloth::ClothPatch::Corner;
+  if (soaking.isHung) settings.patch.pinnedCorners = {Corner::bottomLeft, Corner::bottomRight};
+  settings.fabric = soaking.fabric;
+  settings.pace = pace;
+  Specimen specimen(settings);
+  specimen.cloth().add<wetcloth::Absorption>();
+  wetcloth::Wind::Parameters air;
+  if (soaking.isHung) air.velocity = btVector3(btScalar(0.5), 0, btScalar(0.5));
+  specimen.cloth().add<wetcloth::Wind>(air);
+  std::vector<double> heights;
+  for (int i = 0; i < std::lround(soaking.duration / dt); ++i) {
+    const double start = command::processorTime();
+    specimen.substep(dt);
+    *seconds += command::processorTime() - start;
+    double height = 0;
+    for (int k = 0; k < specimen.body().m_nodes.size(); ++k) height += specimen.body().m_nodes[k].m_x.y();
+    heights.push_back(height / specimen.nodes());
+  }
+  return heights;
+}
+
+/// Largest distance from the path at the exact pace, of the longest way from its beginning.
+Outcome strayBy(const Soaking& soaking, const WaterPace& pace, double dt) {
+  Outcome outcome;
+  double unused = 0;
+  const std::vector<double> exact = path(soaking, WaterPace::exact(), dt, &unused);
+  const std::vector<double> tried = path(soaking, pace, dt, &outcome.seconds);
+  double way = 0;
+  double miss = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    way = std::max(way, std::fabs(exact[i]));
+    const double distance = std::fabs(tried[i] - exact[i]);
+    if (!(distance <= miss)) miss = distance;  // not std::max(), which would let NaN pass
+  }
+  outcome.errors = {miss / way};
+  return outcome;
+}
+
+Plan planOf(const char* name, const char* title, const char* knob) {
+  Plan plan;
+  plan.knob = knob;
+  plan.timed = "the whole step, Bullet's part included";
+  plan.measures = {{name, title, "largest distance from the path, at any step, of the way",
+                    "the same with water and masses in every substep"}};
+  return plan;
+}
+
+void addPoint(Plan& plan, const Soaking& soaking, const WaterPace& pace, double dt, double knob, std::string label) {
+  Setting setting;
+  setting.method = soaking.name;
+  setting.label = std::move(label);
+  setting.knob = knob;
+  setting.nodes = soakingSide * soakingSide;
+  setting.steps = std::round(soaking.duration / dt);
+  setting.simulatedSeconds = soaking.duration;
+  setting.run = [soaking, pace, dt] { return strayBy(soaking, pace, dt); };
+  plan.settings.push_back(std::move(setting));
+}
+
+std::vector<Study> studyRate(const Effort& effort, const TellProgress& tell) {
+  constexpr double dt = 1. / 60;
+  Plan plan = planOf("water_rate", "Soaking cloth whose water moves in every n-th substep of 1/60 s", "n");
+  const std::vector<int> every =
+      effort.isQuick ? std::vector<int>{1, 5, 25} : std::vector<int>{1, 2, 3, 4, 5, 7, 9, 15, 25};
+  for (const Soaking& soaking : soakings()) {
+    for (const int n : every) {
+      WaterPace pace = WaterPace::exact();
+      pace.everySubsteps = n;
+      addPoint(plan, soaking, pace, dt, n, "every " + std::to_string(n));
+    }
+  }
+  return carryOut(plan, effort, tell);
+}
+
+std::vector<Study> studyTolerance(const Effort& effort, const TellProgress& tell) {
+  constexpr double dt = 1. / 240;  // in a longer step a mass changes by more than most of these
+  Plan plan =
+      planOf("mass_tolerance", "Soaking cloth whose masses are written when one has changed, substeps of 1/240 s",
+             "change of a mass that is written, of the mass");
+  const std::vector<std::pair<double, const char*>> tolerances =
+      effort.isQuick ? std::vector<std::pair<double, const char*>>{{1e-3, "0.1 %"}, {1e-2, "1 %"}}
+                     : std::vector<std::pair<double, const char*>>{{3e-4, "0.03 %"}, {1e-3, "0.1 %"}, {2e-3, "0.2 %"},
+                                                                   {5e-3, "0.5 %"},  {1e-2, "1 %"},   {3e-2, "3 %"}};
+  for (const Soaking& soaking : soakings()) {
+    for (const auto& [tolerance, label] : tolerances) {
+      WaterPace pace = WaterPace::exact();
+      pace.massTolerance = tolerance;
+      addPoint(plan, soaking, pace, dt, tolerance, label);
+    }
+  }
+  return carryOut(plan, effort, tell);
+}
+
+}  // namespace
+
+std::vector<Study> studyPace(const Effort& effort, const TellProgress& tell) {
+  std::vector<Study> studies = studyRate(effort, [&](double fraction) { tell(fraction / 2); });
+  for (Study& study : studyTolerance(effort, [&](double fraction) { tell((1 + fraction) / 2); })) {
+    studies.push_back(std::move(study));
+  }
+  return studies;
+}
+
+}  // namespace accuracy
