@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Zlib
 #include "command/cost/CostWorld.h"
 
+#include "command/scene/LeaveOut.h"
 #include "command/timing/ProcessorTime.h"
 
 #include <algorithm>
 #include <cctype>
-#include <functional>
 #include <memory>
+#include <utility>
 
 namespace command {
 namespace {
@@ -20,14 +21,6 @@ std::string keyOf(const wetcloth::Effect& effect) {
     key += static_cast<char>(std::tolower(code));
   }
   return key;
-}
-
-void removeEffects(wetcloth::WetCloth& cloth, const std::function<bool(const wetcloth::Effect&)>& isUnwanted) {
-  std::vector<wetcloth::Effect*> unwanted;
-  for (wetcloth::Effect& effect : cloth.effects()) {
-    if (isUnwanted(effect)) unwanted.push_back(&effect);
-  }
-  for (wetcloth::Effect* effect : unwanted) cloth.remove(*effect);
 }
 
 }  // namespace
@@ -46,19 +39,14 @@ class CostWorld::Stopwatch : public wetcloth::Effect {
 };
 
 CostWorld CostWorld::idle(const Scene& scene) {
-  CostWorld world(scene, SceneWorld::Kind::wet);
-  for (wetcloth::WetCloth* cloth : world.m_world->cloths()) {
-    removeEffects(*cloth, [](const wetcloth::Effect&) { return true; });
-    cloth->setSaturation(0);
-  }
-  return world;
+  Scene bare = leaveOut(scene, [](const EffectScene&) { return true; });
+  for (ClothScene& cloth : bare.cloths) cloth.initialSaturation = 0;
+  return CostWorld(bare, SceneWorld::Kind::wet);
 }
 
 CostWorld CostWorld::timed(const Scene& scene, const std::string& without) {
-  CostWorld world(scene, SceneWorld::Kind::wet);
-  for (wetcloth::WetCloth* cloth : world.m_world->cloths()) {
-    removeEffects(*cloth, [&](const wetcloth::Effect& effect) { return keyOf(effect) == without; });
-  }
+  CostWorld world(leaveOut(scene, [&](const EffectScene& effect) { return effect.key == without; }),
+                  SceneWorld::Kind::wet);
   auto stopwatch = std::make_unique<Stopwatch>();
   world.m_stopwatch = stopwatch.get();
   world.m_world->cloths().back()->add(std::move(stopwatch));

@@ -31,8 +31,10 @@ class CostWorld {
  private:
   class Stopwatch;
 
-  CostWorld(const Scene& scene, SceneWorld::Kind kind) : m_world(std::make_unique<SceneWorld>(scene, kind)) {}
+  CostWorld(const Scene& scene, SceneWorld::Kind kind)
+      : m_scene(std::make_unique<const Scene>(scene)), m_world(std::make_unique<SceneWorld>(*m_scene, kind)) {}
 
+  std::unique_ptr<const Scene> m_scene;
   std::unique_ptr<SceneWorld> m_world;
   const Stopwatch* m_stopwatch = nullptr;
 };

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Zlib
 #include "command/scene/DryScene.h"
 
-#include <algorithm>
+#include "command/scene/LeaveOut.h"
 
 namespace command {
-namespace {
-
-bool isOfWater(const EffectScene& effect) { return effect.water != WaterRole::none; }
-
-}  // namespace
 
 Scene dryScene(const Scene& scene) {
-  Scene dry = scene;
-  for (ClothScene& cloth : dry.cloths) {
-    cloth.initialSaturation = 0;
-    cloth.effects.erase(std::remove_if(cloth.effects.begin(), cloth.effects.end(), isOfWater), cloth.effects.end());
-  }
+  Scene dry = leaveOut(scene, [](const EffectScene& effect) { return effect.water != WaterRole::none; });
+  for (ClothScene& cloth : dry.cloths) cloth.initialSaturation = 0;
   return dry;
 }
 

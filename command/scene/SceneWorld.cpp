@@ -53,7 +53,7 @@ SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_drops(
   for (const Collider& collider : scene.colliders) addCollider(collider);
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
     const std::string pointer = "/cloths/" + std::to_string(i);
-    atPointer(scene, pointer, [&] { addCloth(scene.cloths[i]); });
+    atPointer(scene, pointer, [&] { addCloth(scene.cloths[i], kind); });
     if (kind == Kind::plainBullet) continue;
     atPointer(scene, pointer, [&] { m_cloths.push_back(&m_wetWorld->add(m_bodies.back(), scene.cloths[i].fabric)); });
     m_cloths.back()->setPace(scene.cloths[i].pace);
@@ -62,14 +62,15 @@ SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_drops(
   }
 }
 
-void SceneWorld::addCloth(const ClothScene& cloth) {
+void SceneWorld::addCloth(const ClothScene& cloth, Kind kind) {
   std::unique_ptr<btSoftBody> body = makeBody(cloth, m_world.worldInfo());
   body->m_cfg.kDF = btScalar(cloth.friction);
   body->m_cfg.kDP = btScalar(cloth.damping);
   body->getCollisionShape()->setMargin(btScalar(cloth.margin));
   if (cloth.clusters > 0) body->generateClusters(cloth.clusters);
   body->setSelfCollision(cloth.selfCollision);
-  const bool bulletPulls = m_scene.world == WorldKind::deformable && !cloth.hasEffect("hooke_springs");
+  const bool wePull = kind == Kind::wet && cloth.hasEffect("hooke_springs");
+  const bool bulletPulls = m_scene.world == WorldKind::deformable && !wePull;
   m_springs.emplace_back();
   if (bulletPulls) m_springs.back() = springsOf(cloth.springs, *body, substep(), m_scene.implicit);
   btSoftBody& added = m_world.add(std::move(body), bulletPulls ? &*m_springs.back() : nullptr);

@@ -19,7 +19,8 @@ namespace command {
 /// A scene, ready to run.
 class SceneWorld {
  public:
-  /// The same scene with the library, or in Bullet alone: what it is compared with.
+  /// The same scene with the library, or in Bullet alone: what it is compared with. There, cloths of the deformable
+  /// world have Bullet's own springs, those with `hooke_springs`, too.
   enum class Kind { wet, plainBullet };
 
   /// Throws InputError naming the file and the JSON pointer when the library refuses a cloth or an effect.
@@ -53,7 +54,7 @@ class SceneWorld {
   const FallingDrops& drops() const { return m_drops; }
   const std::vector<wetcloth::CollisionAudit*>& audits() const { return m_audits; }
   const Colliders& colliders() const { return m_colliders; }
-  /// Bullet's own springs of each cloth; none but in the deformable world without `hooke_springs`.
+  /// Bullet's own springs of each cloth; none outside the deformable world, or where `hooke_springs` hold a wet cloth.
   const std::vector<std::optional<DeformableSprings>>& springs() const { return m_springs; }
   /// Whether all positions and velocities are finite.
   bool isFinite() const;
@@ -62,7 +63,7 @@ class SceneWorld {
   std::optional<std::string> blowUp(double otherPush = 0) const;
 
  private:
-  void addCloth(const ClothScene& cloth);
+  void addCloth(const ClothScene& cloth, Kind kind);
   void addFaceTree(btSoftBody& body) const;
   double substep() const { return m_scene.step / m_scene.substeps; }
   double sagOf(std::size_t cloth) const;
