@@ -4,6 +4,7 @@
 #include "command/cli/Errors.h"
 #include "command/fall/FallPhysics.h"
 #include "command/fall/FallingCloth.h"
+#include "command/scene/SoundState.h"
 
 #include <chrono>
 #include <string>
@@ -19,10 +20,7 @@ double timeToFall(FallingCloth& cloth, double height, double longest) {
     const double before = cloth.fallen();
     const double start = cloth.time();
     cloth.substep();
-    if (const auto blowUp = cloth.blowUp()) {
-      throw RunError("wetcloth: the cloth blew up after " + std::to_string(cloth.time()) + " s: " + *blowUp +
-                     "; try another --world or --mode");
-    }
+    requireSound(cloth.blowUp(), cloth.time(), "; try another --world or --mode");
     if (cloth.fallen() >= height) return start + fallSubstep * (height - before) / (cloth.fallen() - before);
   }
   throw RunError("wetcloth: the cloth did not fall its " + std::to_string(height) + " m in " + std::to_string(longest) +

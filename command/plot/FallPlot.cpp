@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: Zlib
+#include "command/plot/FallPlot.h"
+
 #include "command/fall/FallingCloth.h"
 #include "command/plot/Plots.h"
+#include "command/scene/SoundState.h"
 
 #include <algorithm>
 
 namespace command {
 namespace {
-
-/// What stays of the height while one cloth falls to the floor.
-PlotSeries descend(const FallMode& mode, const FallMode::Case& fallCase) {
-  PlotSeries series;
-  series.mark = PlotSeries::Mark::points;
-  FallingCloth cloth(mode, fallCase, WorldKind::softRigid);
-  for (int step = 0; cloth.fallen() < mode.defaultHeight; ++step) {
-    if (step % 36 == 0) series.add(cloth.time(), mode.defaultHeight - cloth.fallen());  // each 0.15 s
-    cloth.substep();
-  }
-  return series;
-}
 
 PlotSeries closedForm(const FallMode& mode, const FallMode::Case& fallCase, const std::string& colour) {
   PlotSeries series;
@@ -64,6 +55,18 @@ Plot fallPlot(const FallMode& mode, const std::string& title, const std::vector<
 }
 
 }  // namespace
+
+PlotSeries descend(const FallMode& mode, const FallMode::Case& fallCase) {
+  PlotSeries series;
+  series.mark = PlotSeries::Mark::points;
+  FallingCloth cloth(mode, fallCase, WorldKind::softRigid);
+  for (int step = 0; cloth.fallen() < mode.defaultHeight; ++step) {
+    if (step % 36 == 0) series.add(cloth.time(), mode.defaultHeight - cloth.fallen());  // each 0.15 s
+    cloth.substep();
+    requireSound(cloth.blowUp(), cloth.time());
+  }
+  return series;
+}
 
 std::vector<Plot> fallPlots(const PlotProgress& progress) {
   const Plot paper =

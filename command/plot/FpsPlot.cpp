@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/fall/FallingCloth.h"
 #include "command/plot/Plots.h"
+#include "command/scene/SoundState.h"
 #include "command/timing/Quantile.h"
 
 #include <algorithm>
@@ -29,6 +30,7 @@ class TimedFall {
   bool isDown() const { return m_cloth.fallen() >= m_height; }
   void frame() {
     m_window.push_back(secondsOfFrame(m_cloth));
+    requireSound(m_cloth.blowUp(), m_cloth.time());
     if (m_window.size() < medianFrames) return;
     m_series.add(m_cloth.time() - 0.5 * medianFrames * fallSubstepsPerFrame * fallSubstep, 1 / median(m_window));
     m_window.clear();

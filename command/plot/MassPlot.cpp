@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "command/plot/Plots.h"
+#include "command/scene/BlowUp.h"
 #include "command/scene/BulletWorld.h"
+#include "command/scene/SoundState.h"
 
 #include <cmath>
 
@@ -10,6 +12,7 @@ namespace {
 constexpr double dryGrams = 0.01;  // of a node in the paper
 constexpr double soakedFor = 40;   // [s]
 constexpr double massStep = 1.0 / 60;
+constexpr double soakSpeed = 1;  // nothing moves the cloth [m/s]
 
 /// The middle node of a level cloth whose nodes weigh 0.01 g, as it takes up water; in grams.
 PlotSeries absorb(wetcloth::Fabric fabric, const wetcloth::Absorption::Parameters& absorption, double interval) {
@@ -34,6 +37,7 @@ PlotSeries absorb(wetcloth::Fabric fabric, const wetcloth::Absorption::Parameter
   for (int step = 0; step <= static_cast<int>(std::lround(soakedFor / massStep)); ++step) {
     if (step % every == 0) series.add(step * massStep, 1e3 * (cloth.dryMass(middle) + cloth.held(middle)));
     world.substep(btScalar(massStep));
+    requireSound(findBlowUp(body, {soakSpeed, massStep}), (step + 1) * massStep);
   }
   return series;
 }

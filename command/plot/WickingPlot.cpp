@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "command/plot/Plots.h"
+#include "command/scene/BlowUp.h"
 #include "command/scene/BulletWorld.h"
+#include "command/scene/SoundState.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +16,7 @@ constexpr double wickingStep = 0.5;  // [s]
 constexpr double frontLevel = 0.05;  // saturation at which the front is read
 constexpr double stripLength = 0.2;  // [m]
 constexpr double dipped = 0.01;      // of it [m]
+constexpr double stripSpeed = 1;     // all its nodes are pinned [m/s]
 
 /// The strip of examples/scenes/wick_strip.json, in twice the rows: cotton on a board, its lower end in water.
 class Strip {
@@ -28,8 +31,8 @@ class Strip {
     m_patch.edgeU = btVector3(btScalar(0.02), 0, 0);
     m_patch.edgeV = btVector3(0, btScalar(stripLength), 0);
     m_patch.pinnedEdges = {wetcloth::ClothPatch::Edge::left, wetcloth::ClothPatch::Edge::right};
-    btSoftBody& body = m_world.add(m_patch.build(m_world.worldInfo()));
-    m_cloth = &m_world.wet().add(body, wetcloth::Fabric::cotton());
+    m_body = &m_world.add(m_patch.build(m_world.worldInfo()));
+    m_cloth = &m_world.wet().add(*m_body, wetcloth::Fabric::cotton());
     m_cloth->setPace(wetcloth::WaterPace::exact());
     m_cloth->add<wetcloth::Immersion>();
     m_cloth->add<wetcloth::Diffusion>();
@@ -40,6 +43,7 @@ class Strip {
   void advance() {
     m_world.substep(btScalar(wickingStep));
     ++m_steps;
+    requireSound(findBlowUp(*m_body, {stripSpeed, wickingStep}), time());
   }
   int rows() const { return m_patch.rows; }
   /// Above the water [m].
@@ -58,6 +62,7 @@ class Strip {
  private:
   BulletWorld m_world;
   wetcloth::ClothPatch m_patch;
+  btSoftBody* m_body = nullptr;
   wetcloth::WetCloth* m_cloth = nullptr;
   long long m_steps = 0;
 };

@@ -24,4 +24,9 @@ void requireSound(const SceneWorld& world) {
   if (const auto blowUp = describeBlowUp(world)) throw RunError(world.scene().file + ": " + *blowUp);
 }
 
+void requireSound(const std::optional<std::string>& blowUp, double time, const std::string& remedy) {
+  if (!blowUp) return;
+  throw RunError("wetcloth: the cloth blew up after " + std::to_string(time) + " s: " + *blowUp + remedy);
+}
+
 }  // namespace command

@@ -17,4 +17,9 @@ std::optional<std::string> describeBlowUp(const SceneWorld& world, double otherP
 /// Throws RunError with the scene's file and that, if a cloth has blown up.
 void requireSound(const SceneWorld& world);
 
+/// The same of a cloth that is in no scene: throws RunError with what findBlowUp() found, if it found something.
+/// @param time    since the start [s]
+/// @param remedy  what to try, "; try ..."
+void requireSound(const std::optional<std::string>& blowUp, double time, const std::string& remedy = "");
+
 }  // namespace command
