@@ -27,7 +27,9 @@ void windAgainstBullet(benchmark::State& state) {
   body.m_cfg.kDG = 1;
   body.m_cfg.kLF = btScalar(0.1);
   body.m_cfg.aeromodel = btSoftBody::eAeroModel::F_TwoSided;
-  wetcloth::Wind& wind = cloth.wet().add<wetcloth::Wind>({kWind});
+  wetcloth::Wind::Parameters parameters;
+  parameters.velocity = kWind;
+  wetcloth::Wind& wind = cloth.wet().add<wetcloth::Wind>(parameters);
   const wetcloth::Step step = {1.0 / 60, 0, btVector3(0, -10, 0)};
   std::vector<double> ours;
   std::vector<double> bullets;
