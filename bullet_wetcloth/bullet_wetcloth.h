@@ -29,6 +29,7 @@
 #include "bullet_wetcloth/effects/Wind.h"
 #include "bullet_wetcloth/mesh/ClothPatch.h"
 #include "bullet_wetcloth/mesh/FaceTree.h"
+#include "bullet_wetcloth/mesh/LooseNodes.h"
 #include "bullet_wetcloth/mesh/MeshCheck.h"
 #include "bullet_wetcloth/shading/Colour.h"
 #include "bullet_wetcloth/state/StateArchive.h"

@@ -2,6 +2,7 @@
 #include "bullet_wetcloth/mesh/ClothPatch.h"
 
 #include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/mesh/LooseNodes.h"
 #include "bullet_wetcloth/water/DryMass.h"
 
 #include <cstddef>
@@ -155,8 +156,7 @@ long long ClothPatch::springCount(Spring kind) const {
 
 std::unique_ptr<btSoftBody> ClothPatch::build(btSoftBodyWorldInfo& worldInfo) const {
   requireValid(*this);
-  const std::vector<btVector3> positions = nodePositions(*this);
-  auto body = std::make_unique<btSoftBody>(&worldInfo, nodeCount(), positions.data(), nullptr);
+  auto body = looseNodes(worldInfo, nodePositions(*this));
   const long long springs = springCount(Spring::mechanical) + springCount(Spring::shear) + springCount(Spring::flexion);
   body->m_links.reserve(static_cast<int>(springs));
   body->m_faces.reserve(2 * (columns - 1) * (rows - 1));

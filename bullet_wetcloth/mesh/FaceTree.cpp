@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/mesh/FaceTree.h"
 
-#include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/mesh/HalvedTree.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 namespace {
-
-// Bullet frees nodes with btAlignedFree().
-btDbvtNode* newNode(const btDbvtVolume& volume) {
-  auto* const node = new (btAlignedAlloc(sizeof(btDbvtNode), 16)) btDbvtNode();
-  node->parent = nullptr;
-  node->childs[0] = node->childs[1] = nullptr;
-  node->volume = volume;
-  return node;
-}
 
 btDbvtNode* newLeaf(btSoftBody::Face& face) {
   btVector3 low = face.m_n[0]->m_x;
@@ -27,29 +17,8 @@ btDbvtNode* newLeaf(btSoftBody::Face& face) {
     low.setMin(node->m_x);
     high.setMax(node->m_x);
   }
-  btDbvtNode* const leaf = newNode(btDbvtVolume::FromMM(low, high));
-  leaf->data = &face;
-  face.m_leaf = leaf;
-  return leaf;
-}
-
-using Leaves = std::vector<btDbvtNode*>;
-
-// Halves them where their box is longest, until one is left.
-btDbvtNode* treeOf(Leaves::iterator first, Leaves::iterator last) {
-  if (last - first == 1) return *first;
-  btDbvtVolume box = (*first)->volume;
-  for (auto leaf = first; leaf != last; ++leaf) Merge(box, (*leaf)->volume, box);
-  const int axis = box.Lengths().maxAxis();
-  const auto middle = first + (last - first) / 2;
-  std::nth_element(first, middle, last, [axis](const btDbvtNode* a, const btDbvtNode* b) {
-    return a->volume.Center()[axis] < b->volume.Center()[axis];
-  });
-  btDbvtNode* const node = newNode(box);
-  node->childs[0] = treeOf(first, middle);
-  node->childs[1] = treeOf(middle, last);
-  node->childs[0]->parent = node->childs[1]->parent = node;
-  return node;
+  face.m_leaf = newTreeNode(btDbvtVolume::FromMM(low, high), &face);
+  return face.m_leaf;
 }
 
 btDbvntNode* withNormals(const btDbvtNode& node) {
@@ -67,11 +36,10 @@ void buildFaceTree(btSoftBody& body) {
   body.m_fdbvt.clear();
   delete body.m_fdbvnt;
   body.m_fdbvnt = nullptr;
-  Leaves leaves;
+  std::vector<btDbvtNode*> leaves;
   for (int f = 0; f < body.m_faces.size(); ++f) leaves.push_back(newLeaf(body.m_faces[f]));
   if (leaves.empty()) return;
-  body.m_fdbvt.m_root = treeOf(leaves.begin(), leaves.end());
-  body.m_fdbvt.m_leaves = body.m_faces.size();
+  fillTree(body.m_fdbvt, leaves);
   body.m_fdbvnt = withNormals(*body.m_fdbvt.m_root);
   body.updateFaceTree(false, false);
 }

@@ -39,9 +39,7 @@ std::map<std::pair<int, int>, std::vector<int>> oppositeNodes(const TriangleMesh
 
 std::unique_ptr<btSoftBody> makeMeshBody(const TriangleMesh& mesh, double arealDensity,
                                          btSoftBodyWorldInfo& worldInfo) {
-  const std::vector<btScalar> masses = nodeMasses(mesh, arealDensity);
-  auto body =
-      std::make_unique<btSoftBody>(&worldInfo, static_cast<int>(masses.size()), mesh.vertices.data(), masses.data());
+  auto body = wetcloth::looseNodes(worldInfo, mesh.vertices, nodeMasses(mesh, arealDensity));
   btSoftBody::Material* const bending = body->appendMaterial();
   const auto opposite = oppositeNodes(mesh);
   for (const auto& [edge, nodes] : opposite) body->appendLink(edge.first, edge.second);
