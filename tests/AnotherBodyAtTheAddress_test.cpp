@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // A body is deleted without a word to us, and an allocator gives its address to the next: that is a dry one.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/support/BodyScene.h"
 #include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
 #include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 #include <new>
 #include <stdexcept>

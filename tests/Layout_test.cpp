@@ -4,6 +4,9 @@
 #include "tests/support/ClothScene.h"
 
 #include "bullet_wetcloth/Layout.h"
+#include "tests/support/Rejection.h"
+
+#include <gtest/gtest.h>
 
 namespace wetcloth_test::layout_test {
 

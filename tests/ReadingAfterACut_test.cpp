@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Zlib
 // An application's loop is: step, change the body, draw. What it reads right after a cut fits the body that it draws.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/support/BodyScene.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
 #include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 namespace wetcloth_test::reading_after_a_cut_test {
 

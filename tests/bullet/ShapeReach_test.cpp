@@ -4,6 +4,8 @@
 #include "bullet_wetcloth/bullet/ShapeReach.h"
 #include "tests/support/Bodies.h"
 
+#include <gtest/gtest.h>
+
 namespace wetcloth_test::shape_reach_test {
 namespace {
 

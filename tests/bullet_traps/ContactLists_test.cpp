@@ -4,10 +4,13 @@
 #include "bullet_wetcloth/bullet/Contacts.h"
 #include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/support/BodyState.h"
+#include "tests/support/BulletSprings.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ContactScene.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/RigidBody.h"
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 

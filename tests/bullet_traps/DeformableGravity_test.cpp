@@ -2,8 +2,11 @@
 // An implicit step of the deformable world takes gravity from the last btDeformableGravityForce; without one it takes a
 // variable that it never set.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/support/BodyScene.h"
 #include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 namespace wetcloth_test::deformable_gravity_test {
 

@@ -2,7 +2,13 @@
 // A bond ends where the body's surface ends, and when the body or the cloth is put elsewhere.
 
 #include "bullet_wetcloth/bullet/ShapeReach.h"
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/support/Bodies.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
+
+#include <gtest/gtest.h>
 
 #include <set>
 

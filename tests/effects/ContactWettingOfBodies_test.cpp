@@ -2,6 +2,9 @@
 // Water taken from a wet body does not depend on how that body is built.
 
 #include "tests/support/Bodies.h"
+#include "tests/support/InEveryWorld.h"
+
+#include <gtest/gtest.h>
 
 namespace wetcloth_test::contact_wetting_of_bodies_test {
 namespace {

@@ -2,7 +2,10 @@
 // An application that changes a cloth's shape at rest, by scale() or in the links themselves, gets a cloth that dries
 // and wicks by its new size. What Swelling does to rest lengths is no new shape.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/support/ClothScene.h"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>

@@ -2,12 +2,18 @@
 // Bullet keeps caches of its own for a cloth and what it lies on: against a shape of each kind, in each world, a
 // restored run goes on bit for bit. One cloth, no effects.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyState.h"
+#include "tests/support/BulletSprings.h"
 #include "tests/support/ContactScene.h"
+#include "tests/support/Measures.h"
 
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <BulletCollision/CollisionShapes/btMultiSphereShape.h>
 #include <BulletCollision/CollisionShapes/btScaledBvhTriangleMeshShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleMesh.h>
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>

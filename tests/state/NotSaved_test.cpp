@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // What is not saved is refused when it is to be saved, by name; never restored as something else.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/support/BodyScene.h"
 #include "tests/support/ContactScene.h"
 #include "tests/support/Patches.h"
@@ -13,6 +14,8 @@
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
 #include <BulletDynamics/MLCPSolvers/btSolveProjectedGaussSeidel.h>
 #include <BulletSoftBody/btSoftRigidCollisionAlgorithm.h>
+
+#include <gtest/gtest.h>
 
 #include <memory>
 #include <sstream>

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Zlib
 // An effect of the application's own takes part by naming what it remembers.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/state/StateScene.h"
+
+#include <gtest/gtest.h>
 
 namespace wetcloth_test::own_effect_test {
 namespace {

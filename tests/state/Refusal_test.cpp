@@ -3,7 +3,10 @@
 
 #include "tests/state/StateScene.h"
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "bullet_wetcloth/state/StateEnvelope.h"
+
+#include <gtest/gtest.h>
 
 #include <cstdint>
 

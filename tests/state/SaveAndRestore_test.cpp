@@ -4,6 +4,9 @@
 
 #include "tests/state/FurnishedScene.h"
 #include "tests/state/StateScene.h"
+#include "tests/support/InEveryWorld.h"
+
+#include <gtest/gtest.h>
 
 #include <utility>
 

@@ -5,9 +5,13 @@
 
 #include "tests/state/StateScene.h"
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/support/BodyScene.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <sstream>

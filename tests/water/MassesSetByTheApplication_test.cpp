@@ -2,12 +2,16 @@
 // Masses that the application sets count from the next step on, before any water moves: they are the new dry masses,
 // those of pinned nodes follow, and the water stays.
 
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/support/BodyScene.h"
 #include "tests/support/CallEffect.h"
 #include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
+#include "tests/support/Materials.h"
 #include "tests/support/Measures.h"
 #include "tests/support/Patches.h"
+
+#include <gtest/gtest.h>
 
 #include <limits>
 
