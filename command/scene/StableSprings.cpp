@@ -29,25 +29,49 @@ double scaledToOne(Vectors& vectors) {
   return length;
 }
 
-/// M^-1/2 K M^-1/2 of springs of 1 N/m along the links.
-Vectors pulled(const btSoftBody& body, const Vectors& moved) {
-  Vectors result(moved.size(), {0, 0, 0});
+/// A spring of 1 N/m along a link.
+struct Spring {
+  std::size_t a, b;
+  std::array<double, 3> along;
+};
+
+std::vector<Spring> springsAlongLinks(const btSoftBody& body) {
+  std::vector<Spring> springs;
+  springs.reserve(static_cast<std::size_t>(body.m_links.size()));
   for (int k = 0; k < body.m_links.size(); ++k) {
     const btSoftBody::Link& link = body.m_links[k];
     const btVector3 along = (link.m_n[1]->m_x - link.m_n[0]->m_x).normalized();
-    const auto a = static_cast<std::size_t>(link.m_n[0] - &body.m_nodes[0]);
-    const auto b = static_cast<std::size_t>(link.m_n[1] - &body.m_nodes[0]);
-    const double rootA = std::sqrt(static_cast<double>(link.m_n[0]->m_im));
-    const double rootB = std::sqrt(static_cast<double>(link.m_n[1]->m_im));
+    springs.push_back(
+        {static_cast<std::size_t>(link.m_n[0] - &body.m_nodes[0]),
+         static_cast<std::size_t>(link.m_n[1] - &body.m_nodes[0]),
+         {static_cast<double>(along.x()), static_cast<double>(along.y()), static_cast<double>(along.z())}});
+  }
+  return springs;
+}
+
+/// Of the nodes' inverse masses.
+std::vector<double> rootsOf(const btSoftBody& body) {
+  std::vector<double> roots;
+  roots.reserve(static_cast<std::size_t>(body.m_nodes.size()));
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    roots.push_back(std::sqrt(static_cast<double>(body.m_nodes[i].m_im)));
+  }
+  return roots;
+}
+
+/// M^-1/2 K M^-1/2 of the springs.
+Vectors pulled(const std::vector<Spring>& springs, const std::vector<double>& roots, const Vectors& moved) {
+  Vectors result(moved.size(), {0, 0, 0});
+  for (const Spring& spring : springs) {
+    const double rootA = roots[spring.a];
+    const double rootB = roots[spring.b];
     double longer = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
-      longer += static_cast<double>(along[axis]) * (rootB * moved[b][i] - rootA * moved[a][i]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      longer += spring.along[i] * (rootB * moved[spring.b][i] - rootA * moved[spring.a][i]);
     }
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
-      result[a][i] -= rootA * longer * static_cast<double>(along[axis]);
-      result[b][i] += rootB * longer * static_cast<double>(along[axis]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      result[spring.a][i] -= rootA * longer * spring.along[i];
+      result[spring.b][i] += rootB * longer * spring.along[i];
     }
   }
   return result;
@@ -62,9 +86,11 @@ double stableStiffness(const btSoftBody& body, double substep) {
     for (double& x : vector) x = static_cast<double>(random()) / std::minstd_rand::max() - 0.5;
   }
   scaledToOne(moved);
+  const std::vector<Spring> springs = springsAlongLinks(body);
+  const std::vector<double> roots = rootsOf(body);
   double eigenvalue = 0;
   for (int round = 0; round < rounds; ++round) {
-    moved = pulled(body, moved);
+    moved = pulled(springs, roots, moved);
     eigenvalue = scaledToOne(moved);
   }
   if (!(eigenvalue > 0)) return std::numeric_limits<double>::infinity();
