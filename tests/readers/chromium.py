@@ -96,9 +96,10 @@ class Browser:
         self._mouse('mouseMoved', end, 1)
         self._mouse('mouseReleased', end, 0)
 
-    def screenshot(self):
-        """PNG of the window."""
-        return base64.b64decode(self._call('Page.captureScreenshot', format='png')['data'])
+    def screenshot(self, left, top, width, height):
+        """PNG of that part of the window."""
+        clip = {'x': left, 'y': top, 'width': width, 'height': height, 'scale': 1}
+        return base64.b64decode(self._call('Page.captureScreenshot', format='png', clip=clip)['data'])
 
     def _mouse(self, kind, place, buttons):
         self._call('Input.dispatchMouseEvent', type=kind, x=place[0], y=place[1], button='left', buttons=buttons,

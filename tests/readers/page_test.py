@@ -7,11 +7,13 @@ import struct
 import time
 
 import chromium
-import png
+import picture
 from exported import SOURCE_DIR, check, export, near, path, prepare, skip, wetcloth
 
 if not chromium.find():
     skip('Chromium is not installed (Debian: apt install chromium)')
+if picture.cannot_be_read():
+    skip(picture.cannot_be_read())
 
 TITLE = 'a towel </script> & <b>{{bytes}}'
 SIZE = (840, 380)  # of the window; the picture is on its left
@@ -31,17 +33,12 @@ def towel():
 
 def pictured(browser):
     time.sleep(0.3)  # what was asked for is drawn with the next refresh
-    return [row[:PICTURE[0]] for row in png.rows(browser.screenshot())[:PICTURE[1]]]
+    return picture.Picture(browser.screenshot(0, 0, *PICTURE))
 
 
-def share(picture, wanted):
-    return sum(wanted(*pixel) for row in picture for pixel in row) / (PICTURE[0] * PICTURE[1])
-
-
-def changed(a, b):
+def changed(before, after):
     """Share of pixels that differ by more than compression of colours could."""
-    differ = sum(max(abs(x - y) for x, y in zip(p, q)) > 12 for r, s in zip(a, b) for p, q in zip(r, s))
-    return differ / (PICTURE[0] * PICTURE[1])
+    return before.differing(after, 12) / len(before.pixels)
 
 
 def is_orange(red, green, blue):
@@ -57,12 +54,12 @@ def test_fetches_nothing(page):
 
 def test_draws(browser):
     check(browser.evaluate('document.title') == TITLE, 'title: ' + browser.evaluate('document.title'))
-    picture = pictured(browser)
-    check(share(picture, is_orange) > 0.05, 'only %g of the picture is towel' % share(picture, is_orange))
-    check(share(picture, is_orange) < 0.9, 'there is nothing around the towel')
+    first = pictured(browser)
+    check(first.share(is_orange) > 0.05, 'only %g of the picture is towel' % first.share(is_orange))
+    check(first.share(is_orange) < 0.9, 'there is nothing around the towel')
     plots = browser.evaluate('document.querySelectorAll(".plot polyline").length')
     check(plots >= 4, 'lines in plots: %d' % plots)
-    return picture
+    return first
 
 
 def test_scrubs(browser, first, frames):
@@ -97,7 +94,7 @@ def test_orbits_and_colours(browser, frames):
     check(changed(before, turned) > 0.02, 'dragging does not turn the view')
     browser.press('2', 'Digit2')
     coloured = pictured(browser)
-    check(share(coloured, is_orange) < 0.01, 'the towel keeps its own colour')
+    check(coloured.share(is_orange) < 0.01, 'the towel keeps its own colour')
     check(changed(turned, coloured) > 0.05, 'colours by saturation look like the fabric')
     check(not browser.evaluate('document.getElementById("scale").hidden'), 'there is no colour bar')
 
@@ -121,8 +118,8 @@ def test_state(browser, frames, scene_file):
 def test_dark(page):
     with chromium.Browser(*SIZE, dark=True) as browser:
         browser.open(page, 'window.wetcloth && window.wetcloth.ready')
-        panel = [row[540:] for row in png.rows(browser.screenshot())]
-        mean = sum(sum(pixel) for row in panel for pixel in row) / (3 * 300 * len(panel))
+        panel = picture.Picture(browser.screenshot(540, 0, SIZE[0] - 540, SIZE[1])).pixels
+        mean = sum(map(sum, panel)) / (3 * len(panel))
         check(mean < 80, 'the panel is bright in the dark scheme: %g' % mean)
         check(not browser.errors, browser.errors)
 
