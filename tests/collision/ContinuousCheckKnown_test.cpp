@@ -36,9 +36,10 @@ Counts countedIn(const std::string& collection, Pair pair, const Way& way, const
   Counts counts;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     ++counts.asked;
-    const std::string text = known[i].id + ": " + literal(pair, queries[i]);
-    if (known[i].meets && !contacts[i].found && counts.missed++ == 0) counts.firstMiss = text;
-    if (!known[i].meets && contacts[i].found && counts.falseAlarms++ == 0) counts.firstAlarm = text;
+    if (known[i].meets == contacts[i].found) continue;
+    const auto text = [&] { return known[i].id + ": " + literal(pair, queries[i]); };
+    if (known[i].meets && counts.missed++ == 0) counts.firstMiss = text();
+    if (!known[i].meets && counts.falseAlarms++ == 0) counts.firstAlarm = text();
   }
   return counts;
 }
