@@ -35,6 +35,15 @@ inline std::ostream& operator<<(std::ostream& out, WorldKind kind) { return out 
 inline const btVector3 kEarthGravity(0, btScalar(-9.81), 0);
 inline const btVector3 kNoGravity(0, 0, 0);
 
+/// Room for the contacts of a test. Bullet's usual pools are eight megabytes, which cost more to fill with zeros than
+/// most tests take; what does not fit comes from the heap.
+inline btDefaultCollisionConstructionInfo smallPools() {
+  btDefaultCollisionConstructionInfo info;
+  info.m_defaultMaxPersistentManifoldPoolSize = 64;
+  info.m_defaultMaxCollisionAlgorithmPoolSize = 64;
+  return info;
+}
+
 /// A Bullet world with everything that it needs, as an application would set it up; nothing of ours in it. Bodies
 /// that are added stay the caller's, who may destroy them before or after the world.
 class BulletWorld {
@@ -104,7 +113,7 @@ class BulletWorld {
 
  private:
   WorldKind m_kind;
-  btSoftBodyRigidBodyCollisionConfiguration m_configuration;
+  btSoftBodyRigidBodyCollisionConfiguration m_configuration{smallPools()};
   btCollisionDispatcher m_dispatcher{&m_configuration};
   btDbvtBroadphase m_broadphase;
   btSequentialImpulseConstraintSolver m_solver;
