@@ -66,6 +66,11 @@ function(must_match text)
   endforeach()
 endfunction()
 
+# What this build has proven about Bullet installations. A proof is named by all that it rests on, so that another
+# compiler, other flags or another installation are tried anew.
+file(STRINGS "${BUILD_DIR}/CMakeCache.txt" BULLET_PROOFS REGEX "^_BULLET_PROOF_[0-9a-f]+:INTERNAL=")
+list(TRANSFORM BULLET_PROOFS PREPEND "-D")
+
 # The command that configures <source dir> in <build dir>. The objects of an earlier run stay, its cache does not; what
 # this build found out about its compiler, CMake need not find out anew.
 function(configure_command source_dir build_dir result)
@@ -80,7 +85,7 @@ function(configure_command source_dir build_dir result)
   set(${result}
       "${CMAKE_COMMAND}" -S "${source_dir}" -B "${build_dir}" -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}"
       "-DCMAKE_CXX_COMPILER_LAUNCHER=${CXX_COMPILER_LAUNCHER}" "-DCMAKE_CXX_FLAGS=${flags}" "-DCMAKE_BUILD_TYPE="
-      "-DWETCLOTH_SOURCE_DIR=${SOURCE_DIR}" ${ARGN} PARENT_SCOPE)
+      "-DWETCLOTH_SOURCE_DIR=${SOURCE_DIR}" ${BULLET_PROOFS} ${ARGN} PARENT_SCOPE)
 endfunction()
 
 function(configure source_dir build_dir)
