@@ -3,7 +3,10 @@
 
 #include "bullet_wetcloth/state/PairAlgorithms.h"
 
+#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
