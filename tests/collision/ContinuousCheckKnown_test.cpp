@@ -121,7 +121,7 @@ TEST_P(ContinuousCheckKnown, ASmallerToleranceHasFewerFalseAlarms) {
 
 // So many intervals are looked at, in the same order, and only then the answer is "contact".
 TEST_P(ContinuousCheckKnown, ABiggerBudgetTurnsNoMissIntoAContact) {
-  const std::vector<KnownQuery> known = knownQueries("real");
+  const std::vector<KnownQuery>& known = knownQueries("real");
   CheckSettings settings;
   settings.maxIntervals = 1;
   int fewerAlarms = 0;

@@ -8,6 +8,7 @@
 #include <zlib.h>
 
 #include <cstdlib>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -44,8 +45,7 @@ inline KnownQuery readKnownQuery(const std::string& line) {
   return query;
 }
 
-/// All queries of one collection: "real" or "cloth".
-inline std::vector<KnownQuery> knownQueries(const std::string& collection) {
+inline std::vector<KnownQuery> readKnownQueries(const std::string& collection) {
   const std::string path = std::string(WETCLOTH_SOURCE_DIR) + "/tests/data/ccd/" + collection + "_queries.csv.gz";
   const gzFile file = gzopen(path.c_str(), "rb");
   if (file == nullptr) throw std::runtime_error("cannot open " + path);
@@ -56,6 +56,13 @@ inline std::vector<KnownQuery> knownQueries(const std::string& collection) {
   gzclose(file);
   if (queries.empty()) throw std::runtime_error("nothing in " + path);
   return queries;
+}
+
+/// All queries of one collection: "real" or "cloth". Read once: some tests ask a hundred times.
+inline const std::vector<KnownQuery>& knownQueries(const std::string& collection) {
+  static std::map<std::string, std::vector<KnownQuery>> read;
+  const auto known = read.find(collection);
+  return known != read.end() ? known->second : read.emplace(collection, readKnownQueries(collection)).first->second;
 }
 
 }  // namespace wetcloth_test
