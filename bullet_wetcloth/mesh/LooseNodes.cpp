@@ -1,14 +1,29 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/mesh/LooseNodes.h"
 
+#include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/mesh/HalvedTree.h"
 
 #include <cstddef>
+#include <string>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 namespace {
+
+void requireValid(const std::vector<btVector3>& positions, const std::vector<btScalar>& masses) {
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (!isFinite(positions[i])) rejectValue("positions[" + std::to_string(i) + "]", "not finite", "finite");
+  }
+  if (!masses.empty() && masses.size() != positions.size()) {
+    rejectValue("masses.size()", masses.size(), "0, or one for each of " + std::to_string(positions.size()) + " nodes");
+  }
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    if (masses[i] >= 0) continue;
+    rejectValue("masses[" + std::to_string(i) + "]", static_cast<double>(masses[i]), ">= 0");
+  }
+}
 
 // All but their tree.
 void addNodes(btSoftBody& body, const std::vector<btVector3>& positions, const std::vector<btScalar>& masses) {
@@ -42,6 +57,7 @@ void buildNodeTree(btSoftBody& body) {
 
 std::unique_ptr<btSoftBody> looseNodes(btSoftBodyWorldInfo& worldInfo, const std::vector<btVector3>& positions,
                                        const std::vector<btScalar>& masses) {
+  requireValid(positions, masses);
   const int count = static_cast<int>(positions.size());
   const bool isForBullet = count <= mostNodesForBullet;
   auto body = std::make_unique<btSoftBody>(&worldInfo, isForBullet ? count : 1, positions.data(),

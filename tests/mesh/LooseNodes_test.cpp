@@ -6,14 +6,16 @@
 #include "tests/support/BulletWorld.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Patches.h"
+#include "tests/support/Rejection.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstddef>
+#include <limits>
 #include <memory>
 #include <set>
 #include <sstream>
+#include <string>
 #include <vector>
 
 namespace wetcloth_test::loose_nodes_test {
@@ -109,6 +111,19 @@ TEST(LooseNodes, OfFewNodesHaveBulletsOwnTree) {
 TEST(LooseNodes, OfNoneAreABodyWithoutNodes) {
   btSoftBodyWorldInfo info;
   EXPECT_EQ(wetcloth::looseNodes(info, {})->m_nodes.size(), 0);
+}
+
+TEST(LooseNodes, RefuseWhatIsNoNode) {
+  btSoftBodyWorldInfo info;
+  const std::vector<btVector3> two = {btVector3(0, 0, 0), btVector3(1, 0, 0)};
+  const auto complaint = [&](const std::vector<btVector3>& positions, const std::vector<btScalar>& masses) {
+    return rejection([&] { wetcloth::looseNodes(info, positions, masses); });
+  };
+  EXPECT_EQ(complaint(two, {}), "");
+  EXPECT_NE(complaint(two, {1}).find("masses.size() = 1"), std::string::npos) << complaint(two, {1});
+  EXPECT_NE(complaint(two, {1, -1}).find("masses[1] = -1"), std::string::npos) << complaint(two, {1, -1});
+  const btVector3 nowhere(0, std::numeric_limits<btScalar>::quiet_NaN(), 0);
+  EXPECT_NE(complaint({two[0], nowhere}, {}).find("positions[1] = not finite"), std::string::npos);
 }
 
 wetcloth::ClothPatch hangingPatch() {
