@@ -36,6 +36,8 @@ function(wetcloth_compile_options target)
             -Wextra-semi
             -Wunused
             -Wvla
+            # Lanes.h: what takes or returns wide vectors is always inlined, so no calling convention is at stake.
+            -Wno-psabi
             # btVector3() leaves its numbers unset by design, and GCC sees that through Bullet's inlined containers.
             $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
             $<$<BOOL:${WETCLOTH_WARNINGS_AS_ERRORS}>:-Werror>)

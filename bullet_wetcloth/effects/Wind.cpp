@@ -160,9 +160,9 @@ void Wind::look(const PackedNodes& nodes, const Step& step) {
     const btScalar* const velocity = nodes.velocity[axis].data();
     btScalar* const relative = m_relative[axis].data();
     for (std::size_t i = 0; i < count; ++i) relative[i] = (inverseMass[i] > 0 ? falling : air) - velocity[i];
-    std::fill(m_force[axis].begin(), m_force[axis].end(), btScalar(0));
   }
   for (std::size_t i = 0; i < count; ++i) m_specificArea[i] = m_nodeAreas[i] * inverseMass[i];
+  for (Lane& axis : m_force) std::fill(axis.begin(), axis.end(), btScalar(0));
   std::fill(m_drag.begin(), m_drag.end(), btScalar(0));
 }
 
@@ -200,7 +200,7 @@ void Wind::accumulate(const PackedNodes& nodes, const Step& step) {
       const btVector3 wind = field.at((x(a) + x(b) + x(c)) * kThird, step.time);
       for (int axis = 0; axis < 3; ++axis) flow[axis][lane] = wind[axis];
     }
-    TriangleDrag::add(m_triangles, block, resistance, flow, lanes);
+    TriangleDrag::add(m_triangles, block, resistance, field.isFunction() ? &flow : nullptr, lanes);
   }
 }
 

@@ -26,9 +26,9 @@ struct TriangleDrag {
   /// What is added to the relative velocity of all corners of a triangle, by axis and lane [m/s].
   using Flow = btScalar[3][TriangleBlocks::kSize];
 
-  /// Adds the forces of a block's triangles.
+  /// Adds the forces of a block's triangles. @param flow  null: there is none
   static void add(const TriangleBlocks& triangles, const TriangleBlocks::Block& block,
-                  const FluidResistance& resistance, const Flow& flow, const Nodes& nodes);
+                  const FluidResistance& resistance, const Flow* flow, const Nodes& nodes);
 
   /// The step of the velocities.
   struct Step {
