@@ -72,6 +72,8 @@ void WetStiffness::attach(WetCloth& cloth) {
   m_cloth = &cloth;
   m_saturation.reset(cloth.body(), cloth.water());
   m_shares.resize(m_saturation.size());
+  m_inverseMass.resize(cloth.water().size());
+  cloth.packedNodes().fit();
   m_factors.resize(scales() ? m_saturation.size() : 0);
   m_sharesDt = 0;
   m_factorsAreStale = true;
@@ -121,29 +123,42 @@ void WetStiffness::updateShares(double dt) {
   m_sharesDt = dt;
 }
 
-// One link after the other, each seeing what those before it left, so that no step is too large. Water that moved in
-// this step counts: the commit that follows writes it into the masses.
-void WetStiffness::damp(WetCloth& cloth) {
-  cloth.joinArrivals();
-  btSoftBody& body = cloth.body();
+// Water that moved in this step counts: the commit that follows writes it into the masses.
+void WetStiffness::weigh(const WetCloth& cloth, const PackedNodes& nodes) {
   const Water& water = cloth.water();
   const bool massesAreStale = water.movedSinceCommit();
-  const auto inverseMassOf = [&](const btSoftBody::Node& node) {
-    if (!massesAreStale || node.m_im == 0) return node.m_im;
-    return static_cast<btScalar>(1 / water.totalMass(toSize(nodeIndex(body, &node))));
+  for (std::size_t i = 0; i < m_inverseMass.size(); ++i) {
+    const bool isStale = massesAreStale && nodes.inverseMass[i] > 0;
+    m_inverseMass[i] = isStale ? static_cast<btScalar>(1 / water.totalMass(i)) : nodes.inverseMass[i];
+  }
+}
+
+// One link after the other, each seeing what those before it left, so that no step is too large.
+void WetStiffness::damp(WetCloth& cloth) {
+  cloth.joinArrivals();
+  PackedNodes& nodes = cloth.packedNodes();
+  nodes.read();
+  weigh(cloth, nodes);
+  const auto between = [](const PackedNodes::Lane(&lanes)[3], const LinkSaturation::Ends& ends) {
+    return btVector3(lanes[0][ends.b] - lanes[0][ends.a], lanes[1][ends.b] - lanes[1][ends.a],
+                     lanes[2][ends.b] - lanes[2][ends.a]);
   };
   for (std::size_t k = 0; k < m_shares.size(); ++k) {
     if (m_shares[k] == 0) continue;
-    const btSoftBody::Link& link = body.m_links[static_cast<int>(k)];
-    btSoftBody::Node& a = *link.m_n[0];
-    btSoftBody::Node& b = *link.m_n[1];
-    const btScalar inverseMassA = inverseMassOf(a);
-    const btScalar inverseMassB = inverseMassOf(b);
-    const double inverseMasses = static_cast<double>(inverseMassA) + static_cast<double>(inverseMassB);
-    const btVector3 impulse = dampingImpulse(b.m_x - a.m_x, b.m_v - a.m_v, inverseMasses, m_shares[k]);
-    cloth.push(a, impulse * -inverseMassA);
-    cloth.push(b, impulse * inverseMassB);
+    const LinkSaturation::Ends& ends = m_saturation.ends(k);
+    const btScalar massA = m_inverseMass[ends.a];
+    const btScalar massB = m_inverseMass[ends.b];
+    const double inverseMasses = static_cast<double>(massA) + static_cast<double>(massB);
+    const btVector3 impulse =
+        dampingImpulse(between(nodes.position, ends), between(nodes.velocity, ends), inverseMasses, m_shares[k]);
+    const btScalar size = impulse.x() + impulse.y() + impulse.z();
+    if (!(size - size == 0)) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      nodes.velocity[axis][ends.a] -= impulse[axis] * massA;
+      nodes.velocity[axis][ends.b] += impulse[axis] * massB;
+    }
   }
+  nodes.velocitiesChanged();
   m_linksVisited += static_cast<long long>(m_shares.size());
 }
 

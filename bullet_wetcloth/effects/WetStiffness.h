@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Effect.h"
+#include "bullet_wetcloth/bullet/PackedNodes.h"
 #include "bullet_wetcloth/numerics/LinkSaturation.h"
 
 #include <LinearMath/btVector3.h>
@@ -83,14 +84,16 @@ class WETCLOTH_EXPORT WetStiffness : public Effect {
   void requireScalable(const WetCloth& cloth, const Parameters& parameters) const;
   void scaleLinks(WetCloth& cloth);
   void updateShares(double dt);
+  void weigh(const WetCloth& cloth, const PackedNodes& nodes);
   void damp(WetCloth& cloth);
 
   Parameters m_parameters;
   WetCloth* m_cloth = nullptr;
   LinkSaturation m_saturation;
-  std::vector<btScalar> m_factors;  // on the stiffness of each link; empty when none is scaled
-  std::vector<double> m_shares;     // of the relative velocity along each link, lost in a step
-  double m_sharesDt = 0;            // the step that they were computed for, 0: none
+  std::vector<btScalar> m_factors;      // on the stiffness of each link; empty when none is scaled
+  std::vector<btScalar> m_inverseMass;  // of each node with the water that has come to it [1/kg]
+  std::vector<double> m_shares;         // of the relative velocity along each link, lost in a step
+  double m_sharesDt = 0;                // the step that they were computed for, 0: none
   bool m_factorsAreStale = true;
   bool m_constantsWillBeReset = false;  // by Bullet, in the substep that we have just seen begin
   long long m_linksVisited = 0;

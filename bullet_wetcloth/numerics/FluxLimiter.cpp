@@ -24,7 +24,6 @@ void FluxLimiter::reset(std::size_t nodeCount) { m_nodes.assign(nodeCount, Node(
 
 void FluxLimiter::apply(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacity,
                         std::vector<double>& fluxes, std::vector<double>& held) {
-  for (double& flux : fluxes) flux = flux == flux ? std::clamp(flux, -kLargestFlux, kLargestFlux) : 0;
   for (std::size_t i = 0; i < m_nodes.size(); ++i) m_nodes[i].ceiling = std::max(capacity[i], held[i]);
   sumFluxes(edges, fluxes);
   for (int round = 0; findOffenders(held); ++round) {
@@ -38,9 +37,11 @@ void FluxLimiter::apply(const std::vector<WeightedEdge>& edges, const std::vecto
   }
 }
 
-void FluxLimiter::sumFluxes(const std::vector<WeightedEdge>& edges, const std::vector<double>& fluxes) {
+void FluxLimiter::sumFluxes(const std::vector<WeightedEdge>& edges, std::vector<double>& fluxes) {
   for (Node& node : m_nodes) node.in = node.out = 0;
   for (std::size_t e = 0; e < edges.size(); ++e) {
+    // Comparisons with NaN are false.
+    fluxes[e] = fluxes[e] >= -kLargestFlux ? std::min(fluxes[e], kLargestFlux) : fluxes[e] < 0 ? -kLargestFlux : 0;
     Node& a = m_nodes[toSize(edges[e].a)];
     Node& b = m_nodes[toSize(edges[e].b)];
     const double toB = std::max(fluxes[e], 0.0);

@@ -38,7 +38,7 @@ class FluxLimiter {
     double giveShare;  // R-
   };
 
-  void sumFluxes(const std::vector<WeightedEdge>& edges, const std::vector<double>& fluxes);
+  void sumFluxes(const std::vector<WeightedEdge>& edges, std::vector<double>& fluxes);
   bool findOffenders(const std::vector<double>& held);
   void findSafeShares(const std::vector<double>& held);
   void scale(const std::vector<WeightedEdge>& edges, std::vector<double>& fluxes) const;

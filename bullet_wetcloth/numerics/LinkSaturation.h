@@ -35,17 +35,18 @@ class WETCLOTH_EXPORT LinkSaturation {
 
   /// Number of links.
   std::size_t size() const { return m_links.size(); }
+  /// The nodes of a link.
+  struct Ends {
+    std::size_t a;
+    std::size_t b;
+  };
+  const Ends& ends(std::size_t link) const { return m_links[link]; }
   /// Of a link, in [0, 1].
   double operator[](std::size_t link) const {
     return (m_saturation[m_links[link].a] + m_saturation[m_links[link].b]) / 2;
   }
 
  private:
-  struct Ends {
-    std::size_t a;
-    std::size_t b;
-  };
-
   double largestChange(const Water& water) const;
   void take(const Water& water);
 

@@ -10,9 +10,9 @@ namespace {
 
 constexpr int kDone = -1;
 
-// v' - v = sum of in (v'_from - v) / (m + in), which leaves even motion exactly as it is.
-void mix(MomentumFlow::Node& node, const std::array<double, 3>& momentum, double inflow) {
-  const double mass = node.mass + inflow;
+// v' - v = sum of in (v_from - v) / (m - out + in), which leaves even motion exactly as it is.
+void mix(MomentumFlow::Node& node, const std::array<double, 3>& momentum, double inflow, double outflow) {
+  const double mass = node.mass - outflow + inflow;
   if (node.isFixed || !(mass > 0) || !(inflow > 0)) return;
   for (std::size_t c = 0; c < 3; ++c) node.velocity[c] += momentum[c] / mass;
 }
@@ -38,6 +38,36 @@ void MomentumFlow::reset(std::size_t nodeCount, const std::vector<WeightedEdge>&
 
 void MomentumFlow::apply(const std::vector<WeightedEdge>& edges, const std::vector<double>& fluxes,
                          std::vector<Node>& nodes) {
+  if (!mixAtOnce(edges, fluxes, nodes)) mixInOrder(edges, fluxes, nodes);
+}
+
+// False, and nothing is done: a node gives more than it weighs.
+bool MomentumFlow::mixAtOnce(const std::vector<WeightedEdge>& edges, const std::vector<double>& fluxes,
+                             std::vector<Node>& nodes) {
+  for (Inflow& inflow : m_inflows) inflow = Inflow();
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const bool isForward = fluxes[e] > 0;
+    const std::size_t from = toSize(isForward ? edges[e].a : edges[e].b);
+    const std::size_t to = toSize(isForward ? edges[e].b : edges[e].a);
+    const double mass = isForward ? fluxes[e] : -fluxes[e];
+    m_inflows[from].out += mass;
+    Inflow& inflow = m_inflows[to];
+    inflow.mass += mass;
+    for (std::size_t c = 0; c < 3; ++c) {
+      inflow.momentum[c] += mass * (nodes[from].velocity[c] - nodes[to].velocity[c]);
+    }
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!(m_inflows[i].out <= nodes[i].mass)) return false;
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    mix(nodes[i], m_inflows[i].momentum, m_inflows[i].mass, m_inflows[i].out);
+  }
+  return true;
+}
+
+void MomentumFlow::mixInOrder(const std::vector<WeightedEdge>& edges, const std::vector<double>& fluxes,
+                              std::vector<Node>& nodes) {
   countInflows(edges, fluxes);
   m_ready.clear();
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -48,7 +78,7 @@ void MomentumFlow::apply(const std::vector<WeightedEdge>& edges, const std::vect
   std::size_t done = 0;
   for (; done < m_ready.size(); ++done) {
     const std::size_t i = toSize(m_ready[done]);
-    mix(nodes[i], m_inflows[i].momentum, m_inflows[i].mass);
+    mix(nodes[i], m_inflows[i].momentum, m_inflows[i].mass, 0);
     passOn(m_ready[done], edges, fluxes, nodes);
   }
   if (done < nodes.size()) stirCircles(nodes);

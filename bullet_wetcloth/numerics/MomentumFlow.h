@@ -13,9 +13,11 @@ inline namespace WETCLOTH_PRECISION {
 
 /// Velocities after water has flowed between nodes, each portion with the velocity of the node that it leaves.
 ///
-/// Upwind and implicit: (m + in) v' = m v + sum of in v'_from, in the order in which the water flows, so one pass
-/// solves it. Each v' is a mean of velocities there were, for any flux, however large against the nodes' masses; the
-/// momentum of all nodes is kept. Where water goes round in a circle the nodes that it reaches end at one velocity.
+/// Upwind: while no node gives more than it weighs, all water leaves with the velocities before,
+/// (m - out + in) v' = (m - out) v + sum of in v_from. Otherwise implicit: (m + in) v' = m v + sum of in v'_from, in
+/// the order in which the water flows, so one pass solves it; where water goes round in a circle, the nodes that it
+/// reaches end at one velocity. Each v' is a mean of velocities there were, for any flux, however large against the
+/// nodes' masses, and the momentum of all nodes is kept.
 class MomentumFlow {
  public:
   struct Node {
@@ -34,9 +36,12 @@ class MomentumFlow {
   struct Inflow {
     std::array<double, 3> momentum;  // of what came in, relative to the node before [kg m/s]
     double mass;
+    double out;   // what went out [kg]
     int pending;  // edges through which water has yet to come
   };
 
+  bool mixAtOnce(const std::vector<WeightedEdge>& edges, const std::vector<double>& fluxes, std::vector<Node>& nodes);
+  void mixInOrder(const std::vector<WeightedEdge>& edges, const std::vector<double>& fluxes, std::vector<Node>& nodes);
   void countInflows(const std::vector<WeightedEdge>& edges, const std::vector<double>& fluxes);
   void passOn(int from, const std::vector<WeightedEdge>& edges, const std::vector<double>& fluxes,
               const std::vector<Node>& nodes);

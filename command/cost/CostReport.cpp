@@ -12,11 +12,11 @@ double floorOf(const CostEstimate& twins) { return std::max(std::fabs(twins.medi
 
 constexpr const char* tableLegend =
     "Each effect is toggled: what a world with all effects takes in its steps more than one without this effect, the\n"
-    "worlds taking turns in one run; medians, of processor time. \"ns per node\" and \"% of Bullet's step\" count our "
-    "own\n"
-    "part of the step, \"mean\" also what is done in some steps only; \"whole step\" has what the effect makes Bullet "
-    "do,\n"
-    "and Bullet's noise. \"< x\": not to be told from nothing, where x is what two identical worlds differ by or the\n"
+    "worlds taking turns in one run; medians, of processor time, over groups of steps in which water moves once. \"ns\n"
+    "per node\" and \"% of Bullet's step\" count our own part of the step, \"mean\" also what is done in some steps\n"
+    "only; \"whole step\" has what the effect makes Bullet do, and Bullet's noise. \"< x\": not to be told from "
+    "nothing,\n"
+    "where x is what two identical worlds differ by or the\n"
     "median's interval of 95 %, the larger of the two.\n";
 
 /// A number beside what could be told at all, which it is not when it is less.

@@ -43,23 +43,34 @@ CostRun::CostRun(const Scene& scene) : m_scene(scene) {
 
 // No world always follows the same other one: it would always find the caches as that one leaves them.
 void CostRun::turn(int most) {
-  const int measured = std::min(most, measuredPerTurn);
+  const int measured = std::min(most, measuredPerTurn());
   const std::size_t count = m_lanes.size();
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t place = m_turns % 2 == 0 ? i : count - 1 - i;
     stepLane(m_lanes[(place + m_turns / 2) % count], measured);
   }
   ++m_turns;
+  m_steps += measured;
   noticeBlowUp(measured);
+}
+
+int CostRun::measuredPerTurn() const {
+  int most = 3;
+  for (const ClothScene& cloth : m_scene.cloths) most = std::max(most, cloth.pace.everySubsteps);
+  return most;
 }
 
 void CostRun::stepLane(Lane& lane, int measured) {
   for (int i = 0; i < unmeasured; ++i) lane.world.step();
+  CostWorld::Seconds sum = {};
   for (int i = 0; i < measured; ++i) {
     const CostWorld::Seconds seconds = lane.world.step();
-    lane.samples.step.push_back(seconds.step);
-    lane.samples.ours.push_back(seconds.ours);
+    sum.step += seconds.step;
+    sum.ours += seconds.ours;
   }
+  if (measured == 0) return;
+  lane.samples.step.push_back(sum.step / measured);
+  lane.samples.ours.push_back(sum.ours / measured);
 }
 
 /// What has blown up takes another time to compute: the turn that brought it does not count. Without its springs, say,
@@ -74,10 +85,10 @@ void CostRun::noticeBlowUp(int measured) {
     if (m_obstacle.empty()) m_obstacle = what;
   }
   if (m_obstacle.empty()) return;
+  m_steps -= measured;
   for (Lane& lane : m_lanes) {
-    const std::size_t kept = lane.samples.step.size() - static_cast<std::size_t>(measured);
-    lane.samples.step.resize(kept);
-    lane.samples.ours.resize(kept);
+    lane.samples.step.pop_back();
+    lane.samples.ours.pop_back();
   }
 }
 

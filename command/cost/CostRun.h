@@ -12,7 +12,7 @@ namespace command {
 /// slows all of them. What an effect costs is then the difference between two worlds, step by step.
 class CostRun {
  public:
-  /// One for each measured step [s].
+  /// One for each turn: the mean of its measured steps [s].
   struct Samples {
     std::vector<double> step;
     std::vector<double> ours;
@@ -27,11 +27,12 @@ class CostRun {
   const std::string& obstacle() const { return m_obstacle; }
   /// Before each turn's measured steps: the caches hold another world when it begins.
   static constexpr int unmeasured = 1;
-  static constexpr int measuredPerTurn = 3;
+  /// As many as water's pace has substeps, so that each turn has one step in which water moves.
+  int measuredPerTurn() const;
 
   const Scene& scene() const { return m_scene; }
   int nodes() const;
-  int steps() const { return static_cast<int>(plain().step.size()); }  ///< measured so far
+  int steps() const { return m_steps; }  ///< measured so far
   int worlds() const { return static_cast<int>(m_lanes.size()); }
   const std::vector<std::string>& effects() const { return m_effects; }
   /// Whether a cloth without effects is exactly where plain Bullet has moved it.
@@ -59,6 +60,7 @@ class CostRun {
   std::vector<Lane> m_lanes;
   std::string m_obstacle;
   std::size_t m_turns = 0;
+  int m_steps = 0;
 };
 
 }  // namespace command
