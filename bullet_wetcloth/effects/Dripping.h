@@ -29,7 +29,7 @@ WETCLOTH_EXPORT bool isLower(const btVector3& other, const btVector3& x, const b
 
 /// A drop that has fallen from a cloth. The library does not follow it: an application may make a particle of it.
 struct Drip {
-  double time;         ///< start of the substep [s]
+  double time;         ///< start of the step of water in which it fell [s]
   btVector3 position;  ///< of the node [m]
   btVector3 velocity;  ///< of the node, which the drop takes along [m/s]
   double mass;         ///< [kg], >= Dripping::Parameters::dropMass

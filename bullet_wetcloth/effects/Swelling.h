@@ -69,7 +69,7 @@ class WETCLOTH_EXPORT Swelling : public Effect {
   void writeLengths(WetCloth& cloth);
 
   Parameters m_parameters;
-  LinkSaturation m_saturation;
+  LinkSaturation m_saturation{5e-3};  // 0.01 % of a length at a strain of 2 %
   std::vector<Length> m_lengths;
   btScalar m_restLengthScale = 1;  // btSoftBody's, when we last looked
   bool m_isStale = true;

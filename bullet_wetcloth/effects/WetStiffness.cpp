@@ -37,10 +37,10 @@ double wetStiffnessFactor(double saturation, double atSaturation) { return 1 + (
 
 double dampingShare(double rate, double dt) { return -std::expm1(-rate * dt); }
 
-btVector3 dampingImpulse(const btVector3& ab, const btVector3& velocity, double inverseMasses, double share) {
-  const double squared = static_cast<double>(ab.length2());
+btVector3 dampingImpulse(const btVector3& ab, const btVector3& velocity, btScalar inverseMasses, btScalar share) {
+  const btScalar squared = ab.length2();
   if (!(squared > 0 && inverseMasses > 0)) return btVector3(0, 0, 0);
-  return ab * static_cast<btScalar>(-share * static_cast<double>(velocity.dot(ab)) / (squared * inverseMasses));
+  return ab * (-share * velocity.dot(ab) / (squared * inverseMasses));
 }
 
 WetStiffness::WetStiffness(Parameters parameters) { setParameters(parameters); }
@@ -118,7 +118,7 @@ void WetStiffness::updateShares(double dt) {
   const double dry = m_parameters.dryDamping;
   const double wet = m_parameters.wetDamping;
   for (std::size_t k = 0; k < m_shares.size(); ++k) {
-    m_shares[k] = dampingShare(dry + (wet - dry) * m_saturation[k], dt);
+    m_shares[k] = static_cast<btScalar>(dampingShare(dry + (wet - dry) * m_saturation[k], dt));
   }
   m_sharesDt = dt;
 }
@@ -148,9 +148,8 @@ void WetStiffness::damp(WetCloth& cloth) {
     const LinkSaturation::Ends& ends = m_saturation.ends(k);
     const btScalar massA = m_inverseMass[ends.a];
     const btScalar massB = m_inverseMass[ends.b];
-    const double inverseMasses = static_cast<double>(massA) + static_cast<double>(massB);
     const btVector3 impulse =
-        dampingImpulse(between(nodes.position, ends), between(nodes.velocity, ends), inverseMasses, m_shares[k]);
+        dampingImpulse(between(nodes.position, ends), between(nodes.velocity, ends), massA + massB, m_shares[k]);
     const btScalar size = impulse.x() + impulse.y() + impulse.z();
     if (!(size - size == 0)) continue;
     for (int axis = 0; axis < 3; ++axis) {

@@ -25,8 +25,8 @@ WETCLOTH_EXPORT double dampingShare(double rate, double dt);
 /// energy falls by (1 - (1 - share)^2) of that of the relative motion, and never grows for a share in [0, 1]. Zero when
 /// the ends coincide or neither can move. @param ab  b - a [m]; @param velocity  v_b - v_a [m/s];
 /// @param inverseMasses  1/m_a + 1/m_b [1/kg], 0 for a pinned end
-WETCLOTH_EXPORT btVector3 dampingImpulse(const btVector3& ab, const btVector3& velocity, double inverseMasses,
-                                         double share);
+WETCLOTH_EXPORT btVector3 dampingImpulse(const btVector3& ab, const btVector3& velocity, btScalar inverseMasses,
+                                         btScalar share);
 
 /// What water does to the stiffness of the links, stretching and bending, and to the damping along them. Each link goes
 /// by its own saturation, the mean of its nodes', and no material is touched: other bodies may share it.
@@ -89,10 +89,10 @@ class WETCLOTH_EXPORT WetStiffness : public Effect {
 
   Parameters m_parameters;
   WetCloth* m_cloth = nullptr;
-  LinkSaturation m_saturation;
+  LinkSaturation m_saturation{1e-3};
   std::vector<btScalar> m_factors;      // on the stiffness of each link; empty when none is scaled
   std::vector<btScalar> m_inverseMass;  // of each node with the water that has come to it [1/kg]
-  std::vector<double> m_shares;         // of the relative velocity along each link, lost in a step
+  std::vector<btScalar> m_shares;       // of the relative velocity along each link, lost in a step
   double m_sharesDt = 0;                // the step that they were computed for, 0: none
   bool m_factorsAreStale = true;
   bool m_constantsWillBeReset = false;  // by Bullet, in the substep that we have just seen begin

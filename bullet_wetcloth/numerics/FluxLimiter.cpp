@@ -20,7 +20,10 @@ double share(double allowed, double wanted) { return wanted > allowed ? std::max
 
 }  // namespace
 
-void FluxLimiter::reset(std::size_t nodeCount) { m_nodes.assign(nodeCount, Node()); }
+void FluxLimiter::reset(std::size_t nodeCount) {
+  m_sums.assign(nodeCount, Sums());
+  m_nodes.assign(nodeCount, Node());
+}
 
 void FluxLimiter::apply(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacity,
                         std::vector<double>& fluxes, std::vector<double>& held) {
@@ -33,17 +36,17 @@ void FluxLimiter::apply(const std::vector<WeightedEdge>& edges, const std::vecto
     sumFluxes(edges, fluxes);
   }
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
-    held[i] = std::clamp(held[i] + (m_nodes[i].in - m_nodes[i].out), 0.0, m_nodes[i].ceiling);
+    held[i] = std::clamp(held[i] + (m_sums[i].in - m_sums[i].out), 0.0, m_nodes[i].ceiling);
   }
 }
 
 void FluxLimiter::sumFluxes(const std::vector<WeightedEdge>& edges, std::vector<double>& fluxes) {
-  for (Node& node : m_nodes) node.in = node.out = 0;
+  std::fill(m_sums.begin(), m_sums.end(), Sums());
   for (std::size_t e = 0; e < edges.size(); ++e) {
     // Comparisons with NaN are false.
     fluxes[e] = fluxes[e] >= -kLargestFlux ? std::min(fluxes[e], kLargestFlux) : fluxes[e] < 0 ? -kLargestFlux : 0;
-    Node& a = m_nodes[toSize(edges[e].a)];
-    Node& b = m_nodes[toSize(edges[e].b)];
+    Sums& a = m_sums[toSize(edges[e].a)];
+    Sums& b = m_sums[toSize(edges[e].b)];
     const double toB = std::max(fluxes[e], 0.0);
     const double toA = std::max(-fluxes[e], 0.0);
     a.in += toA;
@@ -58,15 +61,17 @@ bool FluxLimiter::findOffenders(const std::vector<double>& held) {
   bool found = false;
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
     Node& node = m_nodes[i];
-    const double result = held[i] + (node.in - node.out);
-    const double rounding = kSumRounding * (held[i] + node.in + node.out);
+    const double in = m_sums[i].in;
+    const double out = m_sums[i].out;
+    const double result = held[i] + (in - out);
+    const double rounding = kSumRounding * (held[i] + in + out);
     node.takeShare = node.giveShare = 1;
     if (result >= -rounding && result <= node.ceiling + rounding) continue;
     found = true;
     if (result < 0) {
-      node.giveShare = share(held[i] + node.in, node.out);
+      node.giveShare = share(held[i] + in, out);
     } else {
-      node.takeShare = share(node.ceiling - held[i] + node.out, node.in);
+      node.takeShare = share(node.ceiling - held[i] + out, in);
     }
   }
   return found;
@@ -74,8 +79,8 @@ bool FluxLimiter::findOffenders(const std::vector<double>& held) {
 
 void FluxLimiter::findSafeShares(const std::vector<double>& held) {
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
-    m_nodes[i].giveShare = share(held[i], m_nodes[i].out);
-    m_nodes[i].takeShare = share(m_nodes[i].ceiling - held[i], m_nodes[i].in);
+    m_nodes[i].giveShare = share(held[i], m_sums[i].out);
+    m_nodes[i].takeShare = share(m_nodes[i].ceiling - held[i], m_sums[i].in);
   }
 }
 

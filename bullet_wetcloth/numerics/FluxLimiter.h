@@ -30,9 +30,11 @@ class FluxLimiter {
              std::vector<double>& held);
 
  private:
-  struct Node {
+  struct Sums {
     double in;
     double out;
+  };
+  struct Node {
     double ceiling;    // what it may hold afterwards
     double takeShare;  // R+
     double giveShare;  // R-
@@ -43,6 +45,7 @@ class FluxLimiter {
   void findSafeShares(const std::vector<double>& held);
   void scale(const std::vector<WeightedEdge>& edges, std::vector<double>& fluxes) const;
 
+  std::vector<Sums> m_sums;  // of the fluxes of each node
   std::vector<Node> m_nodes;
 };
 

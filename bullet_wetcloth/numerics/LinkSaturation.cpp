@@ -34,7 +34,7 @@ bool LinkSaturation::update(const Water& water) {
   m_revision = water.revision();
   const double change = largestChange(water);
   m_lags = change > 0;
-  if (change <= (rests ? 0 : kStep)) return false;
+  if (change <= (rests ? 0 : m_tolerance)) return false;
   take(water);
   return true;
 }

@@ -17,12 +17,12 @@ class Water;
 /// The saturation of each link of a cloth: the mean of its two nodes', each in [0, 1]; a node that was filled above its
 /// capacity counts as saturated. A member of effects whose law depends on it.
 ///
-/// While water moves the values lag behind by at most `kStep`, so that a slow change costs little; once a step has
+/// While water moves the values lag behind by at most a tolerance, so that a slow change costs little; once a step has
 /// passed in which no water moved they are exact. So they depend on the water alone, not on how it came there.
 class WETCLOTH_EXPORT LinkSaturation {
  public:
-  /// How far a value may lag behind while water moves [-].
-  static constexpr double kStep = 1e-3;
+  /// @param tolerance  how far a value may lag behind while water moves [-]
+  explicit LinkSaturation(double tolerance) : m_tolerance(tolerance) {}
 
   /// Takes over the body's links, and the water as it is. O(links).
   void reset(const btSoftBody& body, const Water& water);
@@ -50,6 +50,7 @@ class WETCLOTH_EXPORT LinkSaturation {
   double largestChange(const Water& water) const;
   void take(const Water& water);
 
+  double m_tolerance;
   std::vector<Ends> m_links;
   std::vector<double> m_saturation;  // of each node, as last taken
   unsigned long long m_revision = 0;
