@@ -135,27 +135,26 @@ wetcloth::Diffusion::Parameters inSubsteps() {
 }
 
 std::vector<Subject> subjects() {
-  using namespace wetcloth;
   return {{"plain Bullet", plainBullet},
           {"a `WetCloth` without effects", clothAlone},
-          effect<Absorption>("`Absorption`"),
-          effect<Immersion>("`Immersion`"),
-          effect<Rain>("`Rain`"),
-          effect<Splash>("`Splash`", jet()),
-          effect<ContactWetting>("`ContactWetting`"),
-          effect<Diffusion>("`Diffusion`"),
-          effect<Diffusion>("`Diffusion`, explicit substeps", inSubsteps()),
-          effect<Seepage>("`Seepage`"),
-          effect<Dripping>("`Dripping`"),
-          effect<Drying>("`Drying`"),
-          effect<WetStiffness>("`WetStiffness`"),
-          effect<Swelling>("`Swelling`"),
-          effect<Wind>("`Wind`", breeze()),
-          effect<WaterDrag>("`WaterDrag`"),
-          effect<Cling>("`Cling`"),
-          effect<WetFriction>("`WetFriction`"),
-          effect<HookeSprings>("`HookeSprings`"),
-          effect<CollisionAudit>("`CollisionAudit`")};
+          effect<wetcloth::Absorption>("`Absorption`"),
+          effect<wetcloth::Immersion>("`Immersion`"),
+          effect<wetcloth::Rain>("`Rain`"),
+          effect<wetcloth::Splash>("`Splash`", jet()),
+          effect<wetcloth::ContactWetting>("`ContactWetting`"),
+          effect<wetcloth::Diffusion>("`Diffusion`"),
+          effect<wetcloth::Diffusion>("`Diffusion`, explicit substeps", inSubsteps()),
+          effect<wetcloth::Seepage>("`Seepage`"),
+          effect<wetcloth::Dripping>("`Dripping`"),
+          effect<wetcloth::Drying>("`Drying`"),
+          effect<wetcloth::WetStiffness>("`WetStiffness`"),
+          effect<wetcloth::Swelling>("`Swelling`"),
+          effect<wetcloth::Wind>("`Wind`", breeze()),
+          effect<wetcloth::WaterDrag>("`WaterDrag`"),
+          effect<wetcloth::Cling>("`Cling`"),
+          effect<wetcloth::WetFriction>("`WetFriction`"),
+          effect<wetcloth::HookeSprings>("`HookeSprings`"),
+          effect<wetcloth::CollisionAudit>("`CollisionAudit`")};
 }
 
 using Row = std::vector<Figures>;  // one for each side

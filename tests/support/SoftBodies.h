@@ -30,8 +30,8 @@ inline BodyBuilder hangingRope(int links, double linkLength, double mass, bool p
 }
 
 /// A body of these nodes, masses and triangles, without links.
-inline BodyBuilder triangles(std::vector<btVector3> positions, std::vector<btScalar> masses,
-                             std::vector<std::array<int, 3>> faces) {
+inline BodyBuilder triangles(const std::vector<btVector3>& positions, const std::vector<btScalar>& masses,
+                             const std::vector<std::array<int, 3>>& faces) {
   return [=](btSoftBodyWorldInfo& info) {
     auto body =
         std::make_unique<btSoftBody>(&info, static_cast<int>(positions.size()), positions.data(), masses.data());
