@@ -32,6 +32,10 @@ struct Step {
   double dt;          ///< the substep as the body sees it (its timescale included) [s], > 0
   double time;        ///< simulated time at the start of the substep [s]
   btVector3 gravity;  ///< acceleration that Bullet will add to the body in this substep [m/s^2]
+
+  /// Simulated time in the middle of the step [s]. What changes in time is looked at then by a law that is exact while
+  /// it stays the same: the step is of second order so (the midpoint rule), and of first order at either end.
+  double middle() const { return time + dt / 2; }
 };
 
 /// One question that a scene asks of a cloth, answered once per substep.
@@ -59,8 +63,8 @@ class WETCLOTH_EXPORT Effect {
   virtual void attach(WetCloth& cloth) { static_cast<void>(cloth); }
   /// The effect is about to be removed: gives back what it changed in the body.
   virtual void detach(WetCloth& cloth) { static_cast<void>(cloth); }
-  /// Whether apply() reads and changes nodes through WetCloth::packedNodes() alone, which effects that follow each other
-  /// share. The others find the nodes of the body up to date.
+  /// Whether apply() reads and changes nodes through WetCloth::packedNodes() alone, which effects that follow each
+  /// other share. The others find the nodes of the body up to date.
   virtual bool usesPackedNodes() const { return false; }
   /// Does its part of one substep. Never throws.
   virtual void apply(WetCloth& cloth, const Step& step) = 0;

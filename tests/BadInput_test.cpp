@@ -83,7 +83,7 @@ TEST_P(BadInput, ExposureChangedLater) {
   wetcloth::Absorption& soak = cloth.add<wetcloth::Absorption>({std::vector<double>(16, 0.5)});
   expectRefused([&] { adjust(soak, [](auto& p) { p.exposure = 2.5; }); }, "exposure", "2.5");
   expectRefused([&] { adjust(soak, [](auto& p) { p.exposure = std::vector<double>(17, 0.5); }); }, "exposure", "17");
-  EXPECT_EQ(soak.parameters().exposure.at(3, btVector3(0, 0, 0), btVector3(0, 1, 0)), 0.5) << "still the old one";
+  EXPECT_EQ(soak.parameters().exposure.at(3, btVector3(0, 0, 0), btVector3(0, 1, 0), 0), 0.5) << "still the old one";
 }
 
 TEST_P(BadInput, OtherParametersOfAbsorption) {

@@ -61,11 +61,12 @@ void Absorption::apply(WetCloth& cloth, const Step& step) {
     m_hasNormals = true;
   }
   const bool isUniform = !exposure.isFunction() && !exposure.isPerNode();
-  const double uniformShare = isUniform ? share(exposure.at(0, btVector3(0, 0, 0), btVector3(0, 0, 0)), step) : 0;
+  const double uniformShare =
+      isUniform ? share(exposure.at(0, btVector3(0, 0, 0), btVector3(0, 0, 0), step.middle()), step) : 0;
   bool settled = true;
   for (std::size_t i = 0; i < m_uptake.size(); ++i) {
     const btSoftBody::Node& node = cloth.body().m_nodes[static_cast<int>(i)];
-    const double nodeShare = isUniform ? uniformShare : share(exposure.at(i, node.m_x, node.m_n), step);
+    const double nodeShare = isUniform ? uniformShare : share(exposure.at(i, node.m_x, node.m_n, step.middle()), step);
     const bool isFull = takeUp(cloth, i, nodeShare);
     // A function may expose the node later; anything else stays as it is.
     settled = settled && (isFull || (nodeShare == 0 && !exposure.isFunction()));

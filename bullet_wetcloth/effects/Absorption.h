@@ -32,7 +32,7 @@ class WETCLOTH_EXPORT Absorption : public Effect {
   /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
   struct Parameters {
     /// How far a node is in contact with water, [0, 1]: a constant, one value per node, or a function of the
-    /// node's position and normal.
+    /// node's position and normal and of time, asked for the middle of the step.
     Exposure exposure = 1.0;
     Law law = Law::exponential;  ///< of a node's water in time
     /// Velocity of the water that arrives [m/s]; v' = (m v + dm u) / (m + dm).

@@ -110,9 +110,9 @@ void Drying::apply(WetCloth& cloth, const Step& step) {
 
 double Drying::rateOf(const WetCloth& cloth, const Step& step, std::size_t node) const {
   const btSoftBody::Node& at = cloth.body().m_nodes[static_cast<int>(node)];
-  const double area = m_mesh->nodeAreas()[node] * m_parameters.exposure.at(node, at.m_x, at.m_n);
+  const double area = m_mesh->nodeAreas()[node] * m_parameters.exposure.at(node, at.m_x, at.m_n, step.middle());
   if (!(area > 0)) return 0;
-  const btVector3 relative = m_parameters.air.at(at.m_x, step.time) - at.m_v;
+  const btVector3 relative = m_parameters.air.at(at.m_x, step.middle()) - at.m_v;
   const double rate = m_stillAirRate * windFunction(static_cast<double>(relative.length())) * area;
   return std::isfinite(rate) ? rate : 0;
 }
@@ -120,7 +120,7 @@ double Drying::rateOf(const WetCloth& cloth, const Step& step, std::size_t node)
 // For good.
 bool Drying::isCovered(std::size_t node) const {
   const btVector3 anywhere(0, 0, 0);
-  return !m_parameters.exposure.isFunction() && m_parameters.exposure.at(node, anywhere, anywhere) == 0;
+  return !m_parameters.exposure.isFunction() && m_parameters.exposure.at(node, anywhere, anywhere, 0) == 0;
 }
 
 // Returns whether nothing more will dry off the node.

@@ -42,8 +42,8 @@ class WETCLOTH_EXPORT Drying : public Effect {
   struct Parameters {
     double temperature = 20;        ///< of the air and the cloth [degC], [0, 60]
     double relativeHumidity = 0.5;  ///< [0, 1]; 1: nothing dries
-    /// Velocity of the air [m/s]: a constant, or a function of position and time. Its speed relative to the moving
-    /// node counts.
+    /// Velocity of the air [m/s]: a constant, or a function of position and time, asked for the middle of the step. Its
+    /// speed relative to the moving node counts.
     WindField air = {};
     /// Saturation at which the surface begins to fall dry, (0, 1]. A guess.
     double criticalSaturation = 0.3;
@@ -52,7 +52,7 @@ class WETCLOTH_EXPORT Drying : public Effect {
     /// as the air. 0.49 in calm air of 20 C, less in wind (docs/fabrics.md); two sides then dry 128 g/m^2/h by default.
     double selfCooling = 0.5;
     /// Share of a node's area that air reaches, [0, 1]: a constant, one value per node, or a function of the node's
-    /// position and normal.
+    /// position and normal and of time, asked for the middle of the step.
     Exposure exposure = 1.0;
   };
 

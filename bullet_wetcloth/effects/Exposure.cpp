@@ -8,10 +8,16 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-double Exposure::at(std::size_t node, const btVector3& position, const btVector3& normal) const {
-  if (const auto* const function = std::get_if<Function>(&m_value)) {
-    const double value = (*function)(position, normal);
-    return value > 0 ? (value < 1 ? value : 1) : 0;  // NaN compares false, so it counts as 0
+namespace {
+
+double clamped(double value) { return value > 0 ? (value < 1 ? value : 1) : 0; }  // NaN compares false: 0
+
+}  // namespace
+
+double Exposure::at(std::size_t node, const btVector3& position, const btVector3& normal, double time) const {
+  if (const auto* const function = std::get_if<Function>(&m_value)) return clamped((*function)(position, normal));
+  if (const auto* const function = std::get_if<FunctionOfTime>(&m_value)) {
+    return clamped((*function)(position, normal, time));
   }
   if (const auto* const perNode = std::get_if<std::vector<double>>(&m_value)) {
     return node < perNode->size() ? (*perNode)[node] : 0;
@@ -21,9 +27,9 @@ double Exposure::at(std::size_t node, const btVector3& position, const btVector3
 
 void Exposure::requireValid(const char* field) const {
   if (const auto* const constant = std::get_if<double>(&m_value)) requireFraction(field, *constant);
-  if (const auto* const function = std::get_if<Function>(&m_value)) {
-    if (!*function) reject(field, "must not be an empty function");
-  }
+  const auto* const function = std::get_if<Function>(&m_value);
+  const auto* const functionOfTime = std::get_if<FunctionOfTime>(&m_value);
+  if ((function && !*function) || (functionOfTime && !*functionOfTime)) reject(field, "must not be an empty function");
   if (const auto* const perNode = std::get_if<std::vector<double>>(&m_value)) {
     if (perNode->empty()) rejectValue(std::string(field) + ".size()", 0, "the number of the body's nodes");
     for (std::size_t i = 0; i < perNode->size(); ++i) {

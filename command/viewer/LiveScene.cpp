@@ -242,7 +242,8 @@ double LiveScene::exposure() const {
   double value = m_levers.exposure.value_or(1);
   const btVector3 anywhere(0, 0, 0);
   forEach<Absorption>(*m_wet, [&](const Absorption& absorption, const WetCloth&) {
-    if (!varies(absorption.parameters().exposure)) value = absorption.parameters().exposure.at(0, anywhere, anywhere);
+    if (!varies(absorption.parameters().exposure))
+      value = absorption.parameters().exposure.at(0, anywhere, anywhere, 0);
   });
   return value;
 }

@@ -91,18 +91,49 @@ TEST(AbsorptionExposure, FunctionValuesAreClampedAndNanIsDry) {
   const auto constant = [](double value) {
     return Exposure([value](const btVector3&, const btVector3&) { return value; });
   };
-  EXPECT_EQ(constant(7).at(0, anywhere, anywhere), 1);
-  EXPECT_EQ(constant(-7).at(0, anywhere, anywhere), 0);
-  EXPECT_EQ(constant(0.5).at(0, anywhere, anywhere), 0.5);
-  EXPECT_EQ(constant(kNaN).at(0, anywhere, anywhere), 0);
-  EXPECT_EQ(constant(std::numeric_limits<double>::infinity()).at(0, anywhere, anywhere), 1);
+  EXPECT_EQ(constant(7).at(0, anywhere, anywhere, 0), 1);
+  EXPECT_EQ(constant(-7).at(0, anywhere, anywhere, 0), 0);
+  EXPECT_EQ(constant(0.5).at(0, anywhere, anywhere, 0), 0.5);
+  EXPECT_EQ(constant(kNaN).at(0, anywhere, anywhere, 0), 0);
+  EXPECT_EQ(constant(std::numeric_limits<double>::infinity()).at(0, anywhere, anywhere, 0), 1);
+}
+
+// e(t) = t / 8 s: what counts is its integral, t^2 / 16 s, which the middle of each step has exactly.
+TEST(AbsorptionExposure, FunctionOfTimeIsTakenInTheMiddleOfTheStep) {
+  for (const int steps : {1, 2, 8}) {
+    Bath bath([](const btVector3&, const btVector3&, double time) { return time / 8; });
+    for (int i = 0; i < steps; ++i) bath.scene.preTick(8.0 / steps);
+    for (int i = 0; i < 25; ++i) EXPECT_NEAR(bath.scene.cloth().saturation(i), soaked(4, 1), 1e-14) << steps;
+  }
+}
+
+TEST(AbsorptionExposure, FunctionOfTimeMakesTheStepOfSecondOrder) {
+  const auto errorOf = [](int steps) {
+    Bath bath([](const btVector3&, const btVector3&, double time) { return std::exp(-time); });
+    for (int i = 0; i < steps; ++i) bath.scene.preTick(8.0 / steps);
+    return bath.scene.cloth().saturation(7) - soaked(-std::expm1(-8.0), 1);
+  };
+  EXPECT_NEAR(errorOf(64) / errorOf(128), 4, 0.01);
+}
+
+TEST(AbsorptionExposure, FunctionOfTimeIsClampedAndNotEmpty) {
+  const btVector3 anywhere(0, 0, 0);
+  const Exposure later([](const btVector3&, const btVector3&, double time) { return time - 3; });
+  EXPECT_TRUE(later.isFunction());
+  EXPECT_EQ(later.at(0, anywhere, anywhere, 3.25), 0.25);
+  EXPECT_EQ(later.at(0, anywhere, anywhere, 0), 0);
+  EXPECT_EQ(later.at(0, anywhere, anywhere, 10), 1);
+  EXPECT_EQ(later.at(0, anywhere, anywhere, kNaN), 0);
+  for (const Exposure& empty : {Exposure(Exposure::Function()), Exposure(Exposure::FunctionOfTime())}) {
+    EXPECT_NE(rejection([&] { Absorption{Bath::parametersOf(empty)}; }).find("exposure"), std::string::npos);
+  }
 }
 
 TEST(AbsorptionExposure, NodesBeyondTheArrayAreDry) {
   const btVector3 anywhere(0, 0, 0);
   const Exposure exposure(std::vector<double>{0.25, 0.75});
-  EXPECT_EQ(exposure.at(1, anywhere, anywhere), 0.75);
-  EXPECT_EQ(exposure.at(2, anywhere, anywhere), 0);
+  EXPECT_EQ(exposure.at(1, anywhere, anywhere, 0), 0.75);
+  EXPECT_EQ(exposure.at(2, anywhere, anywhere, 0), 0);
 }
 
 TEST(AbsorptionExposure, SetExposureTakesEffectInTheNextStep) {

@@ -50,7 +50,7 @@ inline auto valuesOf(const std::optional<WaterSurface>& s) {
   return std::make_tuple(s.has_value(), valuesOf(surface.normal), surface.offset, surface.density,
                          valuesOf(surface.velocity));
 }
-inline double valueOf(const Exposure& exposure) { return exposure.at(3, btVector3(0, 0, 0), btVector3(0, 1, 0)); }
+inline double valueOf(const Exposure& exposure) { return exposure.at(3, btVector3(0, 0, 0), btVector3(0, 1, 0), 0); }
 
 template <>
 struct Trial<Absorption> : TrialOf<Absorption> {

@@ -64,6 +64,8 @@ void expectWhole(const Study& study) {
     EXPECT_TRUE(names.insert(point.name()).second) << point.name() << " twice";
     EXPECT_GT(point.nanosecondsPerNodeStep, 0) << point.name();
     EXPECT_GT(point.microsecondsPerNodeSecond, 0) << point.name();
+    const bool isOurs = point.name().find("not in the library") == std::string::npos;
+    EXPECT_TRUE(isOurs || !point.isOnFront) << point.name() << " is advised, and cannot be had";
   }
 }
 
