@@ -7,6 +7,7 @@
 #include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/mesh/IntrinsicDelaunay.h"
 #include "bullet_wetcloth/numerics/DiffusionSolver.h"
+#include "bullet_wetcloth/numerics/DiffusionStep.h"
 #include "bullet_wetcloth/numerics/Direction.h"
 #include "bullet_wetcloth/numerics/EdgeFlow.h"
 #include "bullet_wetcloth/state/StateArchive.h"
@@ -65,11 +66,14 @@ double relativeDiffusivity(double saturation, double exponent) { return std::pow
 double diffusionPotential(double saturation, double exponent) {
   if (exponent == 0) return saturation;
   if (exponent == 1) return saturation * saturation / 2;
+  if (exponent == 2) return saturation * saturation * saturation / 3;
   return saturation * std::pow(saturation, exponent) / (exponent + 1);
 }
 
 Diffusion::Diffusion(Parameters parameters)
-    : m_flow(std::make_unique<EdgeFlow>()), m_solver(std::make_unique<DiffusionSolver>()) {
+    : m_flow(std::make_unique<EdgeFlow>()),
+      m_solver(std::make_unique<DiffusionSolver>()),
+      m_step(std::make_unique<DiffusionStep>()) {
   setParameters(parameters);
 }
 
@@ -87,7 +91,9 @@ void Diffusion::conductAs(const Parameters& parameters) {
   if (isSameWarp) built.m_warpCoordinate = m_warpCoordinate;
   built.attach(*m_cloth);
   m_flow.swap(built.m_flow);
+  m_step.swap(built.m_step);
   m_warpCoordinate.swap(built.m_warpCoordinate);
+  m_saturation.swap(built.m_saturation);
   m_potential.swap(built.m_potential);
   m_fluxes.swap(built.m_fluxes);
   m_substepFluxes.swap(built.m_substepFluxes);
@@ -106,6 +112,7 @@ void Diffusion::attach(WetCloth& cloth) {
   rememberWarp(cloth);
   layEdges();
   m_solver->reset(m_flow->nodeCount());
+  m_saturation.assign(m_flow->nodeCount(), 0);
   m_potential.assign(m_flow->nodeCount(), 0);
   m_steadyState.restart();
 }
@@ -115,6 +122,7 @@ void Diffusion::layEdges() {
   m_flow->reset(mesh, diffusionEdges(mesh, m_parameters, m_warpCoordinate));
   m_fluxes.assign(m_flow->edges().size(), 0);
   m_substepFluxes.assign(m_flow->edges().size(), 0);
+  m_step->reset(m_flow->nodeCount(), m_flow->edges().size());
 }
 
 void Diffusion::detach(WetCloth&) { m_cloth = nullptr; }
@@ -150,15 +158,7 @@ void Diffusion::apply(WetCloth& cloth, const Step& step) {
   if (m_parameters.method == Method::explicitSubsteps) {
     flowInSubsteps(step.dt);
   } else {
-    setPotential();
-    const auto& edges = m_flow->edges();
-    const auto& capacities = m_flow->capacities();
-    if (m_parameters.method == Method::factored) {
-      m_solver->solveFactored(edges, capacities, m_potential, step.dt, m_fluxes);
-    } else {
-      m_solver->solveIteratively(edges, capacities, m_potential, step.dt, m_parameters.tolerance, m_fluxes);
-    }
-    m_flow->limit(m_fluxes);
+    flowInOneStep(step.dt);
   }
   if (m_flow->hasMoved()) {
     cloth.joinArrivals();
@@ -167,6 +167,25 @@ void Diffusion::apply(WetCloth& cloth, const Step& step) {
   }
   m_nodesVisited += static_cast<long long>(m_flow->nodeCount());
   m_steadyState.note(cloth.body(), cloth.water(), step.gravity, step.dt, m_flow->moved());
+}
+
+void Diffusion::flowInOneStep(double dt) {
+  const auto& edges = m_flow->edges();
+  const auto& capacities = m_flow->capacities();
+  const double tau = DiffusionStep::kGamma * dt;
+  for (std::size_t i = 0; i < m_saturation.size(); ++i) m_saturation[i] = m_flow->saturation(i);
+  const auto potential = [this](double s) { return diffusionPotential(s, m_parameters.exponent); };
+  if (m_parameters.method == Method::factored) {
+    const auto smooth = [&](std::vector<double>& p) { m_solver->smoothFactored(edges, capacities, tau, p); };
+    m_step->solve(edges, capacities, m_saturation, dt, potential, smooth, m_fluxes);
+  } else {
+    const double tolerance = m_parameters.tolerance;
+    const auto smooth = [&](std::vector<double>& p) {
+      m_solver->smoothIteratively(edges, capacities, tau, tolerance, p);
+    };
+    m_step->solve(edges, capacities, m_saturation, dt, potential, smooth, m_fluxes);
+  }
+  m_flow->limit(m_fluxes);
 }
 
 void Diffusion::setPotential() {

@@ -13,6 +13,7 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 class DiffusionSolver;
+class DiffusionStep;
 class EdgeFlow;
 
 /// Diffusivity at a saturation over that at saturation 1: s^exponent [-], of a saturation in [0, 1].
@@ -35,11 +36,15 @@ class WETCLOTH_EXPORT Diffusion : public Effect {
  public:
   /// How a step is solved.
   enum class Method {
-    /// Implicit, one sparse factorisation for many steps: a step is two triangular solves. Stable for any step.
+    /// Implicit, of second order in time (DiffusionStep), one sparse factorisation for many steps: a step is two
+    /// solves.
+    /// Stable for any step, in which no node becomes drier than the driest or wetter than the wettest.
     factored,
     /// The same step by conjugate gradients: no factor to make and to store, more time per step.
     conjugateGradients,
-    /// Explicit, in as many substeps as it needs, 1000 at most; beyond those bounded, but no longer accurate.
+    /// Explicit, in as many substeps as it needs, 1000 at most; beyond those bounded, but no longer accurate. Of first
+    /// order in the substep, which is so short that its error falls with the mesh width squared, as that of the mesh
+    /// does.
     explicitSubsteps
   };
 
@@ -88,6 +93,7 @@ class WETCLOTH_EXPORT Diffusion : public Effect {
   void conductAs(const Parameters& parameters);
   void layEdges();
   void rememberWarp(WetCloth& cloth);
+  void flowInOneStep(double dt);
   void setPotential();
   void flowInSubsteps(double dt);
 
@@ -95,8 +101,10 @@ class WETCLOTH_EXPORT Diffusion : public Effect {
   WetCloth* m_cloth = nullptr;
   std::unique_ptr<EdgeFlow> m_flow;
   std::unique_ptr<DiffusionSolver> m_solver;  // behind a pointer, so that Eigen stays out of this header
+  std::unique_ptr<DiffusionStep> m_step;
   SteadyState m_steadyState;
   std::vector<double> m_warpCoordinate;  // of each node, in the shape in which the effect was added [m]
+  std::vector<double> m_saturation;
   std::vector<double> m_potential;
   std::vector<double> m_fluxes;  // of each edge [kg]
   std::vector<double> m_substepFluxes;

@@ -30,21 +30,22 @@ void DiffusionSolver::reset(std::size_t nodeCount) {
   forgetFactor();
 }
 
-void DiffusionSolver::factor(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities, double dt) {
+void DiffusionSolver::factor(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities,
+                             double tau) {
   const Eigen::Index size = static_cast<Eigen::Index>(capacities.size());
   std::vector<double> diagonal = capacities;
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(capacities.size() + edges.size());
   for (const WeightedEdge& edge : edges) {
-    diagonal[toSize(edge.a)] += dt * edge.weight;
-    diagonal[toSize(edge.b)] += dt * edge.weight;
-    entries.emplace_back(edge.b, edge.a, -dt * edge.weight);  // a < b: below the diagonal
+    diagonal[toSize(edge.a)] += tau * edge.weight;
+    diagonal[toSize(edge.b)] += tau * edge.weight;
+    entries.emplace_back(edge.b, edge.a, -tau * edge.weight);  // a < b: below the diagonal
   }
   for (Eigen::Index i = 0; i < size; ++i) entries.emplace_back(i, i, diagonal[static_cast<std::size_t>(i)]);
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   m_factor.compute(matrix);
-  m_factoredDt = dt;
+  m_factoredTau = tau;
   ++m_factorizations;
 }
 
@@ -61,42 +62,40 @@ void DiffusionSolver::setUnevenness(const std::vector<double>& capacities, const
   for (std::size_t i = 0; i < potential.size(); ++i) m_uneven[i] = potential[i] - mean;
 }
 
-void DiffusionSolver::solveFactored(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities,
-                                    const std::vector<double>& potential, double dt, std::vector<double>& fluxes) {
-  if (!(dt <= m_factoredDt && dt >= kShortestWithFactor * m_factoredDt)) factor(edges, capacities, dt);
+void DiffusionSolver::smoothFactored(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities,
+                                     double tau, std::vector<double>& potential) {
+  if (!(tau <= m_factoredTau && tau >= kShortestWithFactor * m_factoredTau)) factor(edges, capacities, tau);
   setUnevenness(capacities, potential);
   for (std::size_t i = 0; i < m_uneven.size(); ++i) {
     m_work[toSize(m_factor.row(static_cast<int>(i)))][0] = capacities[i] * m_uneven[i];
   }
   m_factor.solveInPlace(m_work);
-  for (std::size_t i = 0; i < m_uneven.size(); ++i) {
-    m_uneven[i] = m_work[toSize(m_factor.row(static_cast<int>(i)))][0];
+  for (std::size_t i = 0; i < potential.size(); ++i) {
+    potential[i] = m_work[toSize(m_factor.row(static_cast<int>(i)))][0];
   }
-  explicitFluxes(edges, m_uneven, dt, fluxes);
   ++m_solves;
 }
 
-void DiffusionSolver::multiply(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities, double dt,
-                               const std::vector<double>& x, std::vector<double>& product) const {
+void DiffusionSolver::multiply(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities,
+                               double tau, const std::vector<double>& x, std::vector<double>& product) const {
   for (std::size_t i = 0; i < x.size(); ++i) product[i] = capacities[i] * x[i];
   for (const WeightedEdge& edge : edges) {
-    const double flow = dt * edge.weight * (x[toSize(edge.a)] - x[toSize(edge.b)]);
+    const double flow = tau * edge.weight * (x[toSize(edge.a)] - x[toSize(edge.b)]);
     product[toSize(edge.a)] += flow;
     product[toSize(edge.b)] -= flow;
   }
 }
 
-void DiffusionSolver::solveIteratively(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities,
-                                       const std::vector<double>& potential, double dt, double tolerance,
-                                       std::vector<double>& fluxes) {
+void DiffusionSolver::smoothIteratively(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities,
+                                        double tau, double tolerance, std::vector<double>& potential) {
   ++m_solves;
   setUnevenness(capacities, potential);
   m_diagonal = capacities;
   for (const WeightedEdge& edge : edges) {
-    m_diagonal[toSize(edge.a)] += dt * edge.weight;
-    m_diagonal[toSize(edge.b)] += dt * edge.weight;
+    m_diagonal[toSize(edge.a)] += tau * edge.weight;
+    m_diagonal[toSize(edge.b)] += tau * edge.weight;
   }
-  multiply(edges, capacities, dt, m_uneven, m_product);
+  multiply(edges, capacities, tau, m_uneven, m_product);
   double enough = 0;
   double error = 0;
   double oldError = 0;
@@ -113,7 +112,7 @@ void DiffusionSolver::solveIteratively(const std::vector<WeightedEdge>& edges, c
     for (std::size_t i = 0; i < m_uneven.size(); ++i) {
       m_direction[i] = m_residual[i] / m_diagonal[i] + keep * m_direction[i];
     }
-    multiply(edges, capacities, dt, m_direction, m_product);
+    multiply(edges, capacities, tau, m_direction, m_product);
     const double length = error / dot(m_direction, m_product);
     oldError = error;
     error = 0;
@@ -124,7 +123,7 @@ void DiffusionSolver::solveIteratively(const std::vector<WeightedEdge>& edges, c
     }
     ++m_iterations;
   }
-  explicitFluxes(edges, m_uneven, dt, fluxes);
+  std::copy(m_uneven.begin(), m_uneven.end(), potential.begin());
 }
 
 double longestExplicitStep(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities) {
@@ -150,8 +149,8 @@ void explicitFluxes(const std::vector<WeightedEdge>& edges, const std::vector<do
 // While a factor is in use the capacities are those that it was made of: see Diffusion::apply().
 void DiffusionSolver::transferState(StateArchive& archive, const std::vector<WeightedEdge>& edges,
                                     const std::vector<double>& capacities) {
-  archive.value(m_factoredDt);
-  if (archive.isRestoring() && m_factoredDt > 0) factor(edges, capacities, m_factoredDt);
+  archive.value(m_factoredTau);
+  if (archive.isRestoring() && m_factoredTau > 0) factor(edges, capacities, m_factoredTau);
   archive.value(m_factorizations, m_solves, m_iterations);
 }
 

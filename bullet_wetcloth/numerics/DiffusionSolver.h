@@ -14,32 +14,27 @@ inline namespace WETCLOTH_PRECISION {
 
 class StateArchive;
 
-/// Fluxes of one step of C ds/dt = -L Phi(s), C the nodes' capacities, L the Laplacian with conductances G for its
-/// weights.
-///
-/// The implicit step solves (C + dt L) u = C Phi(s) and lets dt G (u_a - u_b) flow along each edge: the nonlinear
-/// Chernoff formula s' = s + u - Phi(s) (Berger, Brezis & Rogers 1979, "A numerical method for solving the problem
-/// u_t - Delta f(u) = 0"). With Phi(s) = s it is backward Euler. For any dt it conserves water and keeps order:
-/// 0 <= s' <= 1, since Phi' <= 1 and C + dt L is an M-matrix; and its matrix does not depend on s.
+/// Smooths a potential over the nodes: solves (C + tau L) u = C p, C the nodes' capacities, L the Laplacian with
+/// conductances for its weights. u lies between the least and the greatest p, since C + tau L is an M-matrix.
 class DiffusionSolver {
  public:
   /// Starts over with that many nodes. Allocates.
   void reset(std::size_t nodeCount);
   /// Conductances or capacities changed: factors anew at the next step.
-  void forgetFactor() { m_factoredDt = 0; }
+  void forgetFactor() { m_factoredTau = 0; }
 
-  /// By a sparse factorisation, which is kept while dt stays the same or is shorter by less than a fifth, so that a
-  /// step that jitters from frame to frame does not cost one each time: the matrix then has the longer step, which is
-  /// as stable, and of first order, too.
+  /// By a sparse factorisation, which is kept while tau stays the same or is shorter by less than a fifth, so that a
+  /// step that jitters from frame to frame does not cost one each time: the matrix then has the longer tau, with which
+  /// DiffusionStep is as stable and of the same order.
   /// @param edges  weights are conductances [kg/s]; @param capacities [kg]
-  /// @param potential  Phi(s) of each node; @param fluxes  the answer: from a to b [kg]
-  void solveFactored(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities,
-                     const std::vector<double>& potential, double dt, std::vector<double>& fluxes);
+  /// @param potential  p of each node, and afterwards u but for a constant, which drives no flow
+  void smoothFactored(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities, double tau,
+                      std::vector<double>& potential);
 
-  /// By conjugate gradients with Jacobi's preconditioner, from the present state, until the residual is `tolerance`
-  /// times that of an even distribution.
-  void solveIteratively(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities,
-                        const std::vector<double>& potential, double dt, double tolerance, std::vector<double>& fluxes);
+  /// By conjugate gradients with Jacobi's preconditioner, from p, until the residual is `tolerance` times that of an
+  /// even distribution.
+  void smoothIteratively(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities, double tau,
+                         double tolerance, std::vector<double>& potential);
 
   /// The factor is made anew of the same numbers.
   void transferState(StateArchive& archive, const std::vector<WeightedEdge>& edges,
@@ -51,13 +46,13 @@ class DiffusionSolver {
   long long iterations() const { return m_iterations; }
 
  private:
-  void factor(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities, double dt);
+  void factor(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities, double tau);
   void setUnevenness(const std::vector<double>& capacities, const std::vector<double>& potential);
-  void multiply(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities, double dt,
+  void multiply(const std::vector<WeightedEdge>& edges, const std::vector<double>& capacities, double tau,
                 const std::vector<double>& x, std::vector<double>& product) const;
 
   SparseFactor m_factor;
-  double m_factoredDt = 0;
+  double m_factoredTau = 0;
   std::vector<std::array<double, 1>> m_work;  // in the order of the factor's rows
   std::vector<double> m_uneven;               // potential less its mean, then u less it
   std::vector<double> m_residual;

@@ -2,6 +2,7 @@
 // Diffusion against closed forms: steps of its solver, an error function, a point source, the front of a wetted strip.
 
 #include "bullet_wetcloth/numerics/DiffusionSolver.h"
+#include "bullet_wetcloth/numerics/DiffusionStep.h"
 #include "tests/support/TransportScene.h"
 
 #include <gtest/gtest.h>
@@ -46,42 +47,72 @@ struct Row {
   static constexpr double kSpacing = 1.0 / (kNodes - 1);
   std::vector<WeightedEdge> edges;
   Values capacities = Values(kNodes, kSpacing);
-  Values potential;
+  Values saturation;
   Values fluxes = Values(kNodes - 1);
   wetcloth::DiffusionSolver solver;
+  wetcloth::DiffusionStep step;
 
   explicit Row(int mode) {
     for (int i = 0; i + 1 < kNodes; ++i) edges.push_back({i, i + 1, 1 / kSpacing});
     capacities.front() = capacities.back() = kSpacing / 2;
-    for (int i = 0; i < kNodes; ++i) potential.push_back(0.5 + 0.4 * std::cos(mode * kPi * i * kSpacing));
+    for (int i = 0; i < kNodes; ++i) saturation.push_back(0.5 + 0.4 * std::cos(mode * kPi * i * kSpacing));
     solver.reset(kNodes);
+    step.reset(kNodes, edges.size());
   }
   static double decay(int mode) {
     const double sine = std::sin(mode * kPi * kSpacing / 2);
     return 4 / (kSpacing * kSpacing) * sine * sine;
   }
+  double amplitude() const { return (saturation[0] - 0.5) / 0.4; }
+  void smooth(double tau, Method method, Values& potential) {
+    if (method == Method::factored) {
+      solver.smoothFactored(edges, capacities, tau, potential);
+    } else {
+      solver.smoothIteratively(edges, capacities, tau, 1e-14, potential);
+    }
+  }
   double amplitudeAfter(int steps, double dt, Method method) {
+    const double tau = wetcloth::DiffusionStep::kGamma * dt;
+    const auto potential = [](double s) { return s; };
     for (int n = 0; n < steps; ++n) {
-      if (method == Method::factored) {
-        solver.solveFactored(edges, capacities, potential, dt, fluxes);
-      } else if (method == Method::conjugateGradients) {
-        solver.solveIteratively(edges, capacities, potential, dt, 1e-14, fluxes);
+      if (method == Method::explicitSubsteps) {
+        explicitFluxes(edges, saturation, dt, fluxes);
       } else {
-        explicitFluxes(edges, potential, dt, fluxes);
+        step.solve(
+            edges, capacities, saturation, dt, potential, [&](Values& p) { smooth(tau, method, p); }, fluxes);
       }
       for (std::size_t e = 0; e < edges.size(); ++e) {
-        potential[e] -= fluxes[e] / capacities[e];
-        potential[e + 1] += fluxes[e] / capacities[e + 1];
+        saturation[e] -= fluxes[e] / capacities[e];
+        saturation[e + 1] += fluxes[e] / capacities[e + 1];
       }
     }
-    return (potential[0] - 0.5) / 0.4;
+    return amplitude();
   }
 };
 
-TEST(DiffusionSolver, EachModeDecaysAsBackwardEulerHasIt) {
+// The first and the last node are those of a mode's crests: what is between them is its amplitude.
+TEST(DiffusionSolver, SmoothsEachModeByItself) {
+  for (const Method method : {Method::factored, Method::conjugateGradients}) {
+    for (const int mode : {1, 2, 5, 32}) {
+      for (const double tau : {1e-6, 1e-3, 0.1, 1e3}) {
+        Row row(mode);
+        row.smooth(tau, method, row.saturation);
+        const double height = row.saturation[0] - row.saturation[std::size_t(Row::kNodes - 1) / std::size_t(mode)];
+        const double before =
+            mode == 32 ? 0.8 : 0.4 * (1 - std::cos(mode * kPi * ((Row::kNodes - 1) / mode) * Row::kSpacing));
+        EXPECT_NEAR(height, before / (1 + tau * Row::decay(mode)), 1e-12) << mode << ' ' << tau;
+      }
+    }
+  }
+}
+
+// R(z) = (1 + (1 - 2 g) z) / (1 - g z)^2, g = 1 + 1/sqrt(2), z = -dt times the mode's decay (Verwer et al. 1999).
+TEST(DiffusionStep, EachModeDecaysAsTheStabilityFunctionHasIt) {
+  const double gamma = 1 + std::sqrt(0.5);
   for (const int mode : {1, 2, 5, 32}) {
-    for (const double dt : {1e-6, 1e-3, 0.1}) {
-      const double exact = std::pow(1 / (1 + dt * Row::decay(mode)), 5);
+    for (const double dt : {1e-6, 1e-3, 0.1, 10.0}) {
+      const double z = -dt * Row::decay(mode);
+      const double exact = std::pow((1 + (1 - 2 * gamma) * z) / ((1 - gamma * z) * (1 - gamma * z)), 5);
       EXPECT_NEAR(Row(mode).amplitudeAfter(5, dt, Method::factored), exact, 1e-12) << mode << ' ' << dt;
       EXPECT_NEAR(Row(mode).amplitudeAfter(5, dt, Method::conjugateGradients), exact, 1e-11) << mode << ' ' << dt;
     }
@@ -91,12 +122,56 @@ TEST(DiffusionSolver, EachModeDecaysAsBackwardEulerHasIt) {
   }
 }
 
-TEST(DiffusionSolver, IsOfFirstOrderInTime) {
+TEST(DiffusionStep, IsOfSecondOrderInTime) {
   const double exact = std::exp(-0.1 * Row::decay(1));
-  const double coarse = Row(1).amplitudeAfter(10, 0.01, Method::factored) - exact;
-  const double fine = Row(1).amplitudeAfter(20, 0.005, Method::factored) - exact;
-  EXPECT_GT(std::fabs(coarse), 1e-3);
-  EXPECT_NEAR(coarse / fine, 2, 0.1);
+  const double coarse = Row(1).amplitudeAfter(40, 0.0025, Method::factored) - exact;
+  const double fine = Row(1).amplitudeAfter(80, 0.00125, Method::factored) - exact;
+  EXPECT_GT(std::fabs(coarse), 1e-4);
+  EXPECT_NEAR(coarse / fine, 4, 0.2);
+}
+
+// No mode may turn over, however long the step: not even those that Phi's slope, at most 1, makes slower than the
+// matrix takes them for.
+TEST(DiffusionStep, NoModeChangesItsSign) {
+  for (const double slope : {0.01, 0.3, 0.586, 0.9, 1.0}) {
+    for (const int mode : {1, 5, 32}) {
+      for (const double dt : {1e-4, 1e-2, 1.0, 1e4}) {
+        Row row(mode);
+        row.step.solve(
+            row.edges, row.capacities, row.saturation, dt, [&](double s) { return slope * s; },
+            [&](Values& p) { row.smooth(wetcloth::DiffusionStep::kGamma * dt, Method::factored, p); }, row.fluxes);
+        const double after = row.saturation[0] - row.fluxes[0] / row.capacities[0];
+        EXPECT_GE(after, 0.5 - 1e-12) << slope << ' ' << mode << ' ' << dt;
+        EXPECT_LT(after, 0.9) << slope << ' ' << mode << ' ' << dt;
+      }
+    }
+  }
+}
+
+// A drop on one node, in a step of 10^4 times the longest explicit one and in shorter ones: it stays the wettest, and
+// none becomes drier than dry.
+TEST(DiffusionStep, ADropStaysTheWettestPlace) {
+  for (const double times : {1.0, 10.0, 100.0, 1e4}) {
+    Row row(1);
+    std::fill(row.saturation.begin(), row.saturation.end(), 0.0);
+    row.saturation[16] = 1;
+    const double dt = times * longestExplicitStep(row.edges, row.capacities);
+    row.step.solve(
+        row.edges, row.capacities, row.saturation, dt, [](double s) { return s; },
+        [&](Values& p) { row.smooth(wetcloth::DiffusionStep::kGamma * dt, Method::factored, p); }, row.fluxes);
+    double sum = 0;
+    for (std::size_t i = 0; i < row.saturation.size(); ++i) {
+      const double in = i > 0 ? row.fluxes[i - 1] : 0;
+      const double out = i < row.fluxes.size() ? row.fluxes[i] : 0;
+      row.saturation[i] += (in - out) / row.capacities[i];
+      sum += row.saturation[i] * row.capacities[i];
+    }
+    EXPECT_NEAR(sum, row.capacities[16], 1e-15) << times;
+    for (const double s : row.saturation) {
+      EXPECT_GE(s, -1e-14) << times;
+      EXPECT_LE(s, row.saturation[16] + 1e-12) << times;
+    }
+  }
 }
 
 // h^2 over the largest sum of conductances, 2 / h, in half a volume at the ends.
@@ -105,8 +180,8 @@ TEST(DiffusionSolver, KnowsTheLongestExplicitStep) {
   EXPECT_NEAR(longestExplicitStep(row.edges, row.capacities), Row::kSpacing * Row::kSpacing / 2, 1e-15);
 }
 
-// Steps that jitter share a factor; the step is first order all the same.
-TEST(DiffusionSolver, KeepsItsFactorWhileTheStepJitters) {
+// Steps that jitter share a factor; the step is of second order all the same.
+TEST(DiffusionStep, KeepsItsFactorWhileTheStepJitters) {
   Row row(1);
   for (int n = 0; n < 20; ++n) row.amplitudeAfter(1, n % 2 == 0 ? 1.0 / 60 : 0.95 / 60, Method::factored);
   EXPECT_EQ(row.solver.factorizations(), 1);

@@ -5,6 +5,7 @@
 #include "command/accuracy/PrecisionStudy.h"
 #include "command/accuracy/StudyReport.h"
 
+#include <bullet_wetcloth/bullet_wetcloth.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
