@@ -36,15 +36,13 @@ class WETCLOTH_EXPORT Diffusion : public Effect {
  public:
   /// How a step is solved.
   enum class Method {
-    /// Implicit, of second order in time (DiffusionStep), one sparse factorisation for many steps: a step is two
-    /// solves.
-    /// Stable for any step, in which no node becomes drier than the driest or wetter than the wettest.
+    /// Implicit, of second order in time, one sparse factorisation for many steps: a step is two solves. Stable for any
+    /// step, in which no node becomes drier than the driest or wetter than the wettest.
     factored,
     /// The same step by conjugate gradients: no factor to make and to store, more time per step.
     conjugateGradients,
     /// Explicit, in as many substeps as it needs, 1000 at most; beyond those bounded, but no longer accurate. Of first
-    /// order in the substep, which is so short that its error falls with the mesh width squared, as that of the mesh
-    /// does.
+    /// order in the substep, which is as short as the mesh width squared, and so is no more wrong than the mesh.
     explicitSubsteps
   };
 
