@@ -63,9 +63,7 @@ void HookeSprings::setParameters(Parameters parameters) {
   if (isAttached && parameters.perLink.size() != m_parameters.perLink.size()) requireSize(parameters, m_springs.size());
   const bool isOtherStiffness = stiffnesses(parameters) != stiffnesses(m_parameters);
   m_parameters = std::move(parameters);
-  if (!isAttached || !isOtherStiffness) return;
-  m_stiffnessRevision = kUnscaled;
-  m_solver->reset(m_nodes.size());
+  if (isAttached && isOtherStiffness) m_stiffnessRevision = kUnscaled;
 }
 
 HookeSprings::~HookeSprings() = default;
@@ -90,7 +88,7 @@ void HookeSprings::attach(WetCloth& cloth) {
   }
   m_stiffnessRevision = kUnscaled;
   m_nodes.resize(static_cast<std::size_t>(body.m_nodes.size()));
-  m_solver->reset(m_nodes.size());
+  m_solver->reset(m_nodes.size(), m_springs.size());
 }
 
 double HookeSprings::stiffnessOf(const btSoftBody::Link& link, std::size_t index) const {
@@ -215,7 +213,7 @@ void HookeSprings::followAnchors(btSoftBody& body, const Step& step) {
 void HookeSprings::pullAnchors(btSoftBody& body, const Step& step) {
   forEachAnchor(body, [&](const AnchorPoint& anchor) {
     if (anchor.rigid->isStaticOrKinematicObject()) return;
-    const std::array<double, 3> pull = m_solver->springForce(m_springs, toSize(nodeIndex(body, anchor.node)));
+    const std::array<double, 3> pull = m_solver->forceOn(m_springs, toSize(nodeIndex(body, anchor.node)));
     const btVector3 force(static_cast<btScalar>(pull[0]), static_cast<btScalar>(pull[1]),
                           static_cast<btScalar>(pull[2]));
     anchor.rigid->activate();

@@ -25,9 +25,11 @@ WETCLOTH_EXPORT btVector3 hookeForce(const btVector3& a, const btVector3& b, dou
 ///
 /// Bullet's position-based links do not stretch under a uniform change of mass. This takes their place: the links
 /// stay where they are (collision, drawing and cutting go on using them) but stop pulling, and the springs' forces
-/// enter as velocity changes by backward Euler, one sparse factorisation for many steps (Liu et al. 2013, "Fast
-/// simulation of mass-spring systems", with the true masses and forces in every iteration). Stable for any stiffness
-/// and step. Anchored nodes follow their rigid body, which feels the pull.
+/// enter as velocity changes by backward Euler: a step of Newton's method, solved by a few conjugate gradients, with
+/// one sparse factorisation for very many steps as their preconditioner (the matrix of Liu et al. 2013, "Fast
+/// simulation of mass-spring systems"). It is made anew when a node was freed or held, or when m / dt^2 of a node or K
+/// of a spring has doubled or halved: a cloth that soaks to 1.84 times its mass keeps it. Stable for any stiffness and
+/// step. Anchored nodes follow their rigid body, which feels the pull.
 ///
 /// Works in all three worlds. In the deformable world Bullet has springs of its own (btDeformableMassSpringForce):
 /// use those or this, not both.
@@ -41,7 +43,9 @@ class WETCLOTH_EXPORT HookeSprings : public Effect {
     double bendingStiffness = 10;  ///< K of links that are marked as bending (flexion springs) [N/m], [0, inf)
     /// K of each link [N/m], in the order of btSoftBody::m_links; empty: the two values above.
     std::vector<double> perLink = {};
-    int iterations = 4;  ///< per substep, >= 1; more follow fast motion more closely, a cloth at rest needs no more
+    /// Of conjugate gradients in a substep, >= 1. A cloth at rest needs no more than one. A swing of a light cloth of 1
+    /// m (150 g/m^2, 25 x 25 nodes, K = 1 kN/m) has its period to 1 % with 3 at 1/120 s, with 8 at 1/60 s.
+    int iterations = 3;
   };
 
   /// Throws std::invalid_argument naming the field and the value.
@@ -51,7 +55,7 @@ class WETCLOTH_EXPORT HookeSprings : public Effect {
   /// As last set.
   const Parameters& parameters() const { return m_parameters; }
   /// Between steps, and all or nothing: throws as the constructor does, or when `perLink` has not one value per link,
-  /// and then nothing has changed. Other stiffnesses make the next step factor the matrix anew.
+  /// and then nothing has changed.
   void setParameters(Parameters parameters);
 
   const char* name() const override { return "HookeSprings"; }

@@ -4,172 +4,193 @@
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-constexpr double kMassChange = 0.02;  // an error e of A's masses leaves e^iterations of the motion unresolved
-constexpr double kStiffnessChange = 0.05;
+constexpr double kStaleRatio = 2;  // a worse preconditioner costs accuracy by the root of this; a new one, many steps
+constexpr double kBlockWeight = 0.3;  // w: 0.15 to 0.5 do alike
+constexpr double kRounding = 1e-12;   // of E
+constexpr int kHalvings = 20;
 
-// K (|b - a| - l0) along b - a, the force on a.
-std::array<double, 3> pull(const std::array<double, 3>& a, const std::array<double, 3>& b, const Spring& spring) {
-  const double x = b[0] - a[0];
-  const double y = b[1] - a[1];
-  const double z = b[2] - a[2];
-  const double length = std::sqrt(x * x + y * y + z * z);
-  const double factor = length > 0 ? spring.stiffness * (1 - spring.restLength / length) : 0;
-  return {factor * x, factor * y, factor * z};
+bool isStale(double present, double factored) {
+  return present > kStaleRatio * factored || factored > kStaleRatio * present;
 }
 
 }  // namespace
 
-void SpringSolver::reset(std::size_t nodeCount) {
-  m_positions.resize(nodeCount);
-  m_inertial.resize(nodeCount);
-  m_force.resize(nodeCount);
+void SpringSolver::reset(std::size_t nodeCount, std::size_t springCount) {
+  m_energy.resize(nodeCount, springCount);
+  for (Vectors* vectors :
+       {&m_positions, &m_start, &m_change, &m_residual, &m_direction, &m_preconditioned, &m_product}) {
+    vectors->resize(nodeCount);
+  }
   m_row.assign(nodeCount, -1);
-  m_factoredMass.assign(nodeCount, 0);
-  m_factoredStiffness.clear();
-  m_factoredDt = 0;
+  m_factoredInertia.assign(nodeCount, 0);
+  m_factoredStiffness.assign(springCount, 0);
+  m_hasFactor = false;
 }
 
 void SpringSolver::noteStiffness(const std::vector<Spring>& springs) {
-  const auto isClose = [](const Spring& spring, double factored) {
-    return std::fabs(spring.stiffness - factored) <= kStiffnessChange * factored;
-  };
-  if (!std::equal(springs.begin(), springs.end(), m_factoredStiffness.begin(), m_factoredStiffness.end(), isClose)) {
-    m_factoredDt = 0;
-  }
+  const auto isFresh = [](const Spring& spring, double factored) { return !isStale(spring.stiffness, factored); };
+  if (!std::equal(springs.begin(), springs.end(), m_factoredStiffness.begin(), isFresh)) m_hasFactor = false;
 }
 
 void SpringSolver::solve(const std::vector<Spring>& springs, std::vector<SpringNode>& nodes, double dt,
                          int iterations) {
-  if (mustFactor(nodes, dt)) factor(springs, nodes, dt);
+  start(nodes, dt);
+  if (mustFactor()) factor(springs);
+  m_freeParts.centre(m_energy, m_positions);
+  descend(springs, iterations);
+  m_freeParts.centre(m_energy, m_positions);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (std::size_t c = 0; c < 3; ++c) {
-      // From here a cloth at rest has nothing left to solve, and it stays at rest.
+      nodes[i].velocityChange[c] = (m_positions[i][c] - m_energy.inertialPosition(i)[c]) / dt;
+    }
+  }
+}
+
+// From here a cloth at rest has nothing left to solve, and it stays at rest.
+void SpringSolver::start(const std::vector<SpringNode>& nodes, double dt) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    Vector inertial;
+    for (std::size_t c = 0; c < 3; ++c) {
       m_positions[i][c] = nodes[i].position[c] + dt * nodes[i].velocity[c];
-      m_inertial[i][c] = m_positions[i][c] + dt * dt * nodes[i].acceleration[c];
+      inertial[c] = m_positions[i][c] + dt * dt * nodes[i].acceleration[c];
     }
+    m_energy.setInertia(i, inertial, nodes[i].isFixed ? 0 : nodes[i].mass / (dt * dt));
   }
+}
+
+// One step of Newton's method, or as much of it as does not raise E.
+void SpringSolver::descend(const std::vector<Spring>& springs, int iterations) {
+  const double most = m_energy.linearize(springs, m_positions, m_residual) * (1 + kRounding);
+  solveLinearized(springs, iterations);
+  m_start = m_positions;
+  double share = 1;
+  for (int halving = 0; halving <= kHalvings; ++halving) {
+    for (std::size_t i = 0; i < m_positions.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) m_positions[i][c] = m_start[i][c] + share * m_change[i][c];
+    }
+    if (m_energy.at(springs, m_positions) <= most) return;
+    share /= 2;
+  }
+  m_positions = m_start;
+}
+
+// Hessian change = residual, by conjugate gradients.
+void SpringSolver::solveLinearized(const std::vector<Spring>& springs, int iterations) {
+  std::fill(m_change.begin(), m_change.end(), Vector{});
+  std::fill(m_direction.begin(), m_direction.end(), Vector{});
+  double previous = 1;
   for (int iteration = 0; iteration < iterations; ++iteration) {
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const double inertia = nodes[i].mass / (dt * dt);
-      for (std::size_t c = 0; c < 3; ++c) m_force[i][c] = inertia * (m_inertial[i][c] - m_positions[i][c]);
+    const double decrease = precondition();
+    if (!(decrease > 0)) return;  // solved
+    const double kept = decrease / previous;
+    previous = decrease;
+    for (std::size_t i = 0; i < m_direction.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) m_direction[i][c] = m_preconditioned[i][c] + kept * m_direction[i][c];
     }
-    addSpringForces(springs);
-    applyInverse();
-  }
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      nodes[i].velocityChange[c] = (m_positions[i][c] - m_inertial[i][c]) / dt;
-    }
-  }
-}
-
-void SpringSolver::addSpringForces(const std::vector<Spring>& springs) {
-  for (const Spring& spring : springs) {
-    const std::size_t a = static_cast<std::size_t>(spring.a);
-    const std::size_t b = static_cast<std::size_t>(spring.b);
-    const Vector force = pull(m_positions[a], m_positions[b], spring);
-    for (std::size_t c = 0; c < 3; ++c) {
-      m_force[a][c] += force[c];
-      m_force[b][c] -= force[c];
+    const double step = decrease / m_energy.multiply(springs, m_direction, m_product);
+    for (std::size_t i = 0; i < m_change.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        m_change[i][c] += step * m_direction[i][c];
+        m_residual[i][c] -= step * m_product[i][c];
+      }
     }
   }
 }
 
-std::array<double, 3> SpringSolver::springForce(const std::vector<Spring>& springs, std::size_t node) const {
+// Returns residual . preconditioned.
+double SpringSolver::precondition() {
+  for (std::size_t i = 0; i < m_row.size(); ++i) {
+    if (m_row[i] >= 0) m_work[static_cast<std::size_t>(m_row[i])] = m_residual[i];
+  }
+  m_factor.solveInPlace(m_work);
+  double product = 0;
+  for (std::size_t i = 0; i < m_row.size(); ++i) {
+    if (m_row[i] < 0) {
+      m_preconditioned[i] = Vector{};
+      continue;
+    }
+    const Vector& global = m_work[static_cast<std::size_t>(m_row[i])];
+    const Vector own = m_energy.solveBlock(i, m_residual[i]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      m_preconditioned[i][c] = global[c] + kBlockWeight * own[c];
+      product += m_residual[i][c] * m_preconditioned[i][c];
+    }
+  }
+  return product;
+}
+
+std::array<double, 3> SpringSolver::forceOn(const std::vector<Spring>& springs, std::size_t node) const {
   Vector total = {0, 0, 0};
   for (const Spring& spring : springs) {
     const std::size_t a = static_cast<std::size_t>(spring.a);
     const std::size_t b = static_cast<std::size_t>(spring.b);
     if (a != node && b != node) continue;
-    const Vector force = pull(m_positions[a], m_positions[b], spring);
+    const Vector force = springForce(spring, m_positions[a], m_positions[b]);
     for (std::size_t c = 0; c < 3; ++c) total[c] += a == node ? force[c] : -force[c];
   }
   return total;
 }
 
-bool SpringSolver::mustFactor(const std::vector<SpringNode>& nodes, double dt) const {
-  if (dt != m_factoredDt) return true;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i].isFixed != (m_row[i] < 0)) return true;
-    if (!nodes[i].isFixed && std::fabs(nodes[i].mass - m_factoredMass[i]) > kMassChange * m_factoredMass[i]) {
-      return true;
-    }
+bool SpringSolver::mustFactor() const {
+  if (!m_hasFactor) return true;
+  for (std::size_t i = 0; i < m_row.size(); ++i) {
+    // 0 of what is held, and nothing is within a ratio of that but 0.
+    if (isStale(m_energy.inertia(i), m_factoredInertia[i])) return true;
   }
   return false;
 }
 
-void SpringSolver::factor(const std::vector<Spring>& springs, const std::vector<SpringNode>& nodes, double dt) {
+void SpringSolver::factor(const std::vector<Spring>& springs) {
   int rows = 0;
-  std::vector<int> unknown(nodes.size(), -1);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!nodes[i].isFixed) unknown[i] = rows++;
-  }
+  std::vector<int> unknown(m_row.size(), -1);
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(nodes.size() + 4 * springs.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    m_factoredMass[i] = nodes[i].mass;
-    if (unknown[i] >= 0) entries.emplace_back(unknown[i], unknown[i], nodes[i].mass / (dt * dt));
+  entries.reserve(m_row.size() + 3 * springs.size());
+  for (std::size_t i = 0; i < m_row.size(); ++i) {
+    m_factoredInertia[i] = m_energy.inertia(i);
+    if (!(m_factoredInertia[i] > 0)) continue;
+    unknown[i] = rows++;
+    entries.emplace_back(unknown[i], unknown[i], m_factoredInertia[i]);
   }
-  m_factoredStiffness.resize(springs.size());
-  std::transform(springs.begin(), springs.end(), m_factoredStiffness.begin(),
-                 [](const Spring& spring) { return spring.stiffness; });
-  for (const Spring& spring : springs) {
-    const int a = unknown[static_cast<std::size_t>(spring.a)];
-    const int b = unknown[static_cast<std::size_t>(spring.b)];
-    if (a >= 0) entries.emplace_back(a, a, spring.stiffness);
-    if (b >= 0) entries.emplace_back(b, b, spring.stiffness);
-    if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), -spring.stiffness);
+  for (std::size_t k = 0; k < springs.size(); ++k) {
+    const double stiffness = m_factoredStiffness[k] = springs[k].stiffness;
+    const int a = unknown[static_cast<std::size_t>(springs[k].a)];
+    const int b = unknown[static_cast<std::size_t>(springs[k].b)];
+    if (a >= 0) entries.emplace_back(a, a, stiffness);
+    if (b >= 0) entries.emplace_back(b, b, stiffness);
+    if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), -stiffness);
   }
   Eigen::SparseMatrix<double> matrix(rows, rows);
   matrix.setFromTriplets(entries.begin(), entries.end());
   m_factor.compute(matrix);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    m_row[i] = unknown[i] >= 0 ? m_factor.row(unknown[i]) : -1;
-  }
+  for (std::size_t i = 0; i < m_row.size(); ++i) m_row[i] = unknown[i] >= 0 ? m_factor.row(unknown[i]) : -1;
   m_work.resize(static_cast<std::size_t>(rows));
-  m_factoredDt = dt;
+  m_freeParts.find(springs, m_energy);
+  m_hasFactor = true;
   ++m_factorizations;
-}
-
-// positions += A^-1 force on the free nodes.
-void SpringSolver::applyInverse() {
-  for (std::size_t i = 0; i < m_row.size(); ++i) {
-    if (m_row[i] >= 0) m_work[static_cast<std::size_t>(m_row[i])] = m_force[i];
-  }
-  m_factor.solveInPlace(m_work);
-  for (std::size_t i = 0; i < m_row.size(); ++i) {
-    if (m_row[i] < 0) continue;
-    for (std::size_t c = 0; c < 3; ++c) m_positions[i][c] += m_work[static_cast<std::size_t>(m_row[i])][c];
-  }
 }
 
 // The factor may be older than masses and stiffness are, so what it was made of is saved.
 void SpringSolver::transferState(StateArchive& archive, const std::vector<Spring>& springs) {
   std::vector<Spring> factored = springs;
-  std::vector<SpringNode> nodes(m_row.size());
-  double dt = m_factoredDt;
-  archive.local(dt);
-  const bool hasFactor = dt > 0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    unsigned char isFixed = m_row[i] < 0 ? 1 : 0;
-    nodes[i].mass = m_factoredMass[i];
-    archive.local(isFixed);
-    archive.local(nodes[i].mass);
-    nodes[i].isFixed = isFixed != 0;
-  }
-  for (std::size_t k = 0; hasFactor && k < factored.size(); ++k) {
+  unsigned char hasFactor = m_hasFactor ? 1 : 0;
+  archive.local(hasFactor);
+  std::vector<double> inertia = m_factoredInertia;
+  for (double& value : inertia) archive.local(value);
+  for (std::size_t k = 0; hasFactor != 0 && k < factored.size(); ++k) {
     if (archive.isSaving()) factored[k].stiffness = m_factoredStiffness[k];
     archive.local(factored[k].stiffness);
   }
-  if (archive.isRestoring()) m_factoredDt = 0;
-  if (archive.isRestoring() && hasFactor) factor(factored, nodes, dt);
+  if (archive.isRestoring()) {
+    m_hasFactor = false;
+    for (std::size_t i = 0; i < inertia.size(); ++i) m_energy.setInertia(i, Vector{}, inertia[i]);
+    if (hasFactor != 0) factor(factored);
+  }
   archive.value(m_factorizations);
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/numerics/FreeParts.h"
 #include "bullet_wetcloth/numerics/SparseFactor.h"
+#include "bullet_wetcloth/numerics/SpringEnergy.h"
 
 #include <array>
 #include <cstddef>
@@ -12,13 +14,6 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 class StateArchive;
-
-struct Spring {
-  int a;
-  int b;
-  double stiffness;   // [N/m]
-  double restLength;  // [m]
-};
 
 struct SpringNode {
   std::array<double, 3> position;
@@ -31,16 +26,20 @@ struct SpringNode {
 
 /// Backward Euler for a net of Hooke springs.
 ///
-/// Minimises E(x) = sum m |x - y|^2 / (2 dt^2) + sum k (|x_b - x_a| - l0)^2 / 2 with y = x0 + dt (v + dt g), by
-/// x <- x - A^-1 grad E(x) with A = M / dt^2 + L, L the springs' weighted Laplacian. A bounds the Hessian of E from
-/// above, so E never rises, for any stiffness and step (Liu et al. 2013; Bouaziz et al. 2014); grad E uses the true
-/// masses and forces, so the state at rest does not depend on the number of iterations. A is factored only when the
-/// step, the free nodes, a mass by more than 2 %, or a stiffness by more than 5 % has changed; A then bounds the
-/// Hessian to 5 %, and E still never rises (that takes a bound of half the Hessian).
+/// Minimises SpringEnergy, with y = x0 + dt (v + dt g), by one step of Newton's method from x0 + dt v, whose linear
+/// equations conjugate gradients solve in a few iterations. They are preconditioned by A^-1 + w D^-1: A = M / dt^2 + L,
+/// L the springs' weighted Laplacian, is the Hessian if all springs were equally stiff across their length (Liu et al.
+/// 2013), and reaches through the whole net where it is stiff; D, the Hessian's blocks of 3 x 3, serves the directions
+/// in which springs are soft and a node's own inertia decides. The step is halved until E does not rise, whatever the
+/// stiffness and the step.
+///
+/// E has the present masses and forces, so neither the state at rest nor what is conserved depends on A, which is
+/// factored only when a node was freed or held, or m / dt^2 of one or the stiffness of a spring is more than twice or
+/// less than half of what it was.
 class SpringSolver {
  public:
-  /// Starts over with a net of that many nodes; forgets the factorisation.
-  void reset(std::size_t nodeCount);
+  /// Starts over with a net of that many nodes and springs; forgets the factorisation.
+  void reset(std::size_t nodeCount, std::size_t springCount);
 
   /// Fills velocityChange of the free nodes. Does not allocate while nothing has to be factored anew.
   void solve(const std::vector<Spring>& springs, std::vector<SpringNode>& nodes, double dt, int iterations);
@@ -49,7 +48,7 @@ class SpringSolver {
   void noteStiffness(const std::vector<Spring>& springs);
 
   /// Force of all springs on one node at the end of the last step [N].
-  std::array<double, 3> springForce(const std::vector<Spring>& springs, std::size_t node) const;
+  std::array<double, 3> forceOn(const std::vector<Spring>& springs, std::size_t node) const;
 
   /// The factor is made anew of the same numbers. `springs` have their saved stiffness.
   void transferState(StateArchive& archive, const std::vector<Spring>& springs);
@@ -57,21 +56,30 @@ class SpringSolver {
   long long factorizations() const { return m_factorizations; }
 
  private:
-  using Vector = std::array<double, 3>;
+  using Vector = SpringEnergy::Vector;
+  using Vectors = SpringEnergy::Vectors;
 
-  bool mustFactor(const std::vector<SpringNode>& nodes, double dt) const;
-  void factor(const std::vector<Spring>& springs, const std::vector<SpringNode>& nodes, double dt);
-  void addSpringForces(const std::vector<Spring>& springs);
-  void applyInverse();
+  void start(const std::vector<SpringNode>& nodes, double dt);
+  bool mustFactor() const;
+  void factor(const std::vector<Spring>& springs);
+  void descend(const std::vector<Spring>& springs, int iterations);
+  void solveLinearized(const std::vector<Spring>& springs, int iterations);
+  double precondition();
 
-  std::vector<Vector> m_positions;  // of the iteration
-  std::vector<Vector> m_inertial;   // y
-  std::vector<Vector> m_force;      // minus grad E
-  std::vector<Vector> m_work;       // in the order of the factor's rows
-  std::vector<int> m_row;           // of a node in the factor, -1 when fixed
-  std::vector<double> m_factoredMass;
+  SpringEnergy m_energy;
+  FreeParts m_freeParts;
+  Vectors m_positions;
+  Vectors m_start;      // of Newton's step
+  Vectors m_change;     // the step
+  Vectors m_residual;   // of its equations
+  Vectors m_direction;  // of conjugate gradients
+  Vectors m_preconditioned;
+  Vectors m_product;
+  Vectors m_work;          // in the order of the factor's rows
+  std::vector<int> m_row;  // of a node in the factor, -1 when fixed
+  std::vector<double> m_factoredInertia;
   std::vector<double> m_factoredStiffness;
-  double m_factoredDt = 0;
+  bool m_hasFactor = false;
   SparseFactor m_factor;
   long long m_factorizations = 0;
 };
