@@ -18,16 +18,12 @@ Vector difference(const Vector& a, const Vector& b) { return {b[0] - a[0], b[1] 
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// k (1 - l0 / l): the force per length. 0 where the ends coincide and there is no direction.
-double secantStiffness(const Spring& spring, double length) {
-  return length > 0 ? spring.stiffness * (1 - spring.restLength / length) : 0;
-}
-
 }  // namespace
 
 std::array<double, 3> springForce(const Spring& spring, const Vector& a, const Vector& b) {
   const Vector edge = difference(a, b);
-  const double stiffness = secantStiffness(spring, std::sqrt(dot(edge, edge)));
+  const double length = std::sqrt(dot(edge, edge));
+  const double stiffness = length > 0 ? spring.stiffness * (1 - spring.restLength / length) : 0;
   return {stiffness * edge[0], stiffness * edge[1], stiffness * edge[2]};
 }
 
@@ -71,17 +67,18 @@ double SpringEnergy::linearize(const std::vector<Spring>& springs, const Vectors
     const std::size_t a = static_cast<std::size_t>(spring.a);
     const std::size_t b = static_cast<std::size_t>(spring.b);
     const Vector edge = difference(positions[a], positions[b]);
-    const double square = dot(edge, edge);
-    const double length = std::sqrt(square);
-    const double secant = secantStiffness(spring, length);
+    const double length = std::sqrt(dot(edge, edge));
+    const double inverseLength = length > 0 ? 1 / length : 0;
+    // Where the ends coincide there is no direction: no force, and as stiff as can be in each.
+    const double secant = length > 0 ? spring.stiffness * (1 - spring.restLength * inverseLength) : 0;
     for (std::size_t c = 0; c < 3; ++c) {
       force[a][c] += secant * edge[c];
       force[b][c] -= secant * edge[c];
     }
     energy += spring.stiffness * (length - spring.restLength) * (length - spring.restLength);
     const double across = length > 0 ? std::max(0.0, secant) : spring.stiffness;
-    const double along = length > 0 ? (spring.stiffness - across) / square : 0;
-    m_curvatures[k] = {edge, across, along};
+    const double along = (spring.stiffness - across) * inverseLength * inverseLength;
+    m_curvatures[k] = {spring.a, spring.b, edge, across, along};
     const Block block = {across + along * edge[0] * edge[0], along * edge[0] * edge[1],
                          along * edge[0] * edge[2],          across + along * edge[1] * edge[1],
                          along * edge[1] * edge[2],          across + along * edge[2] * edge[2]};
@@ -94,16 +91,15 @@ double SpringEnergy::linearize(const std::vector<Spring>& springs, const Vectors
   return energy / 2;
 }
 
-double SpringEnergy::multiply(const std::vector<Spring>& springs, const Vectors& p, Vectors& product) const {
+double SpringEnergy::multiply(const Vectors& p, Vectors& product) const {
   double curvature = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     for (std::size_t c = 0; c < 3; ++c) product[i][c] = m_inertia[i] * p[i][c];
     curvature += m_inertia[i] * dot(p[i], p[i]);
   }
-  for (std::size_t k = 0; k < springs.size(); ++k) {
-    const std::size_t a = static_cast<std::size_t>(springs[k].a);
-    const std::size_t b = static_cast<std::size_t>(springs[k].b);
-    const Curvature& spring = m_curvatures[k];
+  for (const Curvature& spring : m_curvatures) {
+    const std::size_t a = static_cast<std::size_t>(spring.a);
+    const std::size_t b = static_cast<std::size_t>(spring.b);
     const Vector change = difference(p[a], p[b]);
     const double lengthening = dot(spring.edge, change);
     curvature += spring.across * dot(change, change) + spring.along * lengthening * lengthening;

@@ -47,15 +47,17 @@ class SpringEnergy {
   /// does not move means nothing.
   double linearize(const std::vector<Spring>& springs, const Vectors& positions, Vectors& force);
   /// Fills `product` with the Hessian times p; p is 0 where nothing moves. Returns p^T (Hessian) p.
-  double multiply(const std::vector<Spring>& springs, const Vectors& p, Vectors& product) const;
+  double multiply(const Vectors& p, Vectors& product) const;
   /// The inverse of the node's own block of the Hessian, times v; 0 for a node that does not move.
   Vector solveBlock(std::size_t node, const Vector& v) const;
 
  private:
   /// xx, xy, xz, yy, yz, zz of a symmetric matrix.
   using Block = std::array<double, 6>;
-  /// across I + along edge edge^T.
+  /// A spring's Hessian: across I + along edge edge^T.
   struct Curvature {
+    int a;
+    int b;
     Vector edge;    // [m]
     double across;  // [N/m]
     double along;   // [N/m^3]
@@ -65,8 +67,8 @@ class SpringEnergy {
 
   Vectors m_inertialPositions;
   std::vector<double> m_inertia;
-  std::vector<Curvature> m_curvatures;  // of the springs
-  std::vector<Block> m_blocks;          // inverted, of the nodes
+  std::vector<Curvature> m_curvatures;
+  std::vector<Block> m_blocks;  // inverted, of the nodes
 };
 
 }  // namespace WETCLOTH_PRECISION

@@ -13,10 +13,40 @@ namespace {
 constexpr double kStaleRatio = 2;  // a worse preconditioner costs accuracy by the root of this; a new one, many steps
 constexpr double kBlockWeight = 0.3;  // w: 0.15 to 0.5 do alike
 constexpr double kRounding = 1e-12;   // of E
+constexpr double kWeak = 0.005;       // of what else holds both ends
 constexpr int kHalvings = 20;
 
 bool isStale(double present, double factored) {
   return present > kStaleRatio * factored || factored > kStaleRatio * present;
+}
+
+/// M / dt^2 + L in the rows `unknown` of the nodes; its lower triangle. A spring much weaker than the others at both
+/// its ends is left out: it is between nodes that are not neighbours, as a rule, and half of what the factor would hold
+/// is due to those.
+Eigen::SparseMatrix<double> laplacian(const std::vector<Spring>& springs, const std::vector<double>& inertia,
+                                      const std::vector<int>& unknown, int rows) {
+  std::vector<double> hold(unknown.size(), 0);
+  for (const Spring& spring : springs) {
+    hold[static_cast<std::size_t>(spring.a)] += spring.stiffness;
+    hold[static_cast<std::size_t>(spring.b)] += spring.stiffness;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(unknown.size() + 3 * springs.size());
+  for (std::size_t i = 0; i < unknown.size(); ++i) {
+    if (unknown[i] >= 0) entries.emplace_back(unknown[i], unknown[i], inertia[i]);
+  }
+  for (const Spring& spring : springs) {
+    const std::size_t a = static_cast<std::size_t>(spring.a);
+    const std::size_t b = static_cast<std::size_t>(spring.b);
+    if (spring.stiffness < kWeak * std::min(hold[a], hold[b])) continue;
+    if (unknown[a] >= 0) entries.emplace_back(unknown[a], unknown[a], spring.stiffness);
+    if (unknown[b] >= 0) entries.emplace_back(unknown[b], unknown[b], spring.stiffness);
+    if (unknown[a] < 0 || unknown[b] < 0) continue;
+    entries.emplace_back(std::max(unknown[a], unknown[b]), std::min(unknown[a], unknown[b]), -spring.stiffness);
+  }
+  Eigen::SparseMatrix<double> matrix(rows, rows);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
 }
 
 }  // namespace
@@ -67,7 +97,7 @@ void SpringSolver::start(const std::vector<SpringNode>& nodes, double dt) {
 // One step of Newton's method, or as much of it as does not raise E.
 void SpringSolver::descend(const std::vector<Spring>& springs, int iterations) {
   const double most = m_energy.linearize(springs, m_positions, m_residual) * (1 + kRounding);
-  solveLinearized(springs, iterations);
+  solveLinearized(iterations);
   m_start = m_positions;
   double share = 1;
   for (int halving = 0; halving <= kHalvings; ++halving) {
@@ -81,7 +111,7 @@ void SpringSolver::descend(const std::vector<Spring>& springs, int iterations) {
 }
 
 // Hessian change = residual, by conjugate gradients.
-void SpringSolver::solveLinearized(const std::vector<Spring>& springs, int iterations) {
+void SpringSolver::solveLinearized(int iterations) {
   std::fill(m_change.begin(), m_change.end(), Vector{});
   std::fill(m_direction.begin(), m_direction.end(), Vector{});
   double previous = 1;
@@ -93,7 +123,7 @@ void SpringSolver::solveLinearized(const std::vector<Spring>& springs, int itera
     for (std::size_t i = 0; i < m_direction.size(); ++i) {
       for (std::size_t c = 0; c < 3; ++c) m_direction[i][c] = m_preconditioned[i][c] + kept * m_direction[i][c];
     }
-    const double step = decrease / m_energy.multiply(springs, m_direction, m_product);
+    const double step = decrease / m_energy.multiply(m_direction, m_product);
     for (std::size_t i = 0; i < m_change.size(); ++i) {
       for (std::size_t c = 0; c < 3; ++c) {
         m_change[i][c] += step * m_direction[i][c];
@@ -149,25 +179,13 @@ bool SpringSolver::mustFactor() const {
 void SpringSolver::factor(const std::vector<Spring>& springs) {
   int rows = 0;
   std::vector<int> unknown(m_row.size(), -1);
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(m_row.size() + 3 * springs.size());
   for (std::size_t i = 0; i < m_row.size(); ++i) {
     m_factoredInertia[i] = m_energy.inertia(i);
-    if (!(m_factoredInertia[i] > 0)) continue;
-    unknown[i] = rows++;
-    entries.emplace_back(unknown[i], unknown[i], m_factoredInertia[i]);
+    if (m_factoredInertia[i] > 0) unknown[i] = rows++;
   }
-  for (std::size_t k = 0; k < springs.size(); ++k) {
-    const double stiffness = m_factoredStiffness[k] = springs[k].stiffness;
-    const int a = unknown[static_cast<std::size_t>(springs[k].a)];
-    const int b = unknown[static_cast<std::size_t>(springs[k].b)];
-    if (a >= 0) entries.emplace_back(a, a, stiffness);
-    if (b >= 0) entries.emplace_back(b, b, stiffness);
-    if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), -stiffness);
-  }
-  Eigen::SparseMatrix<double> matrix(rows, rows);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  m_factor.compute(matrix);
+  std::transform(springs.begin(), springs.end(), m_factoredStiffness.begin(),
+                 [](const Spring& spring) { return spring.stiffness; });
+  m_factor.compute(laplacian(springs, m_factoredInertia, unknown, rows));
   for (std::size_t i = 0; i < m_row.size(); ++i) m_row[i] = unknown[i] >= 0 ? m_factor.row(unknown[i]) : -1;
   m_work.resize(static_cast<std::size_t>(rows));
   m_freeParts.find(springs, m_energy);

@@ -41,7 +41,7 @@ std::vector<ClothSolver> solvers(const Effort& effort) {
       // Beyond that nothing gets better, and it takes minutes.
       if (substeps * iterations <= 400) all.push_back({Kind::links, substeps, iterations});
     }
-    for (const int iterations : {4, 16}) all.push_back({Kind::hookeSprings, substeps, iterations});
+    for (const int iterations : {3, 4, 8, 16}) all.push_back({Kind::hookeSprings, substeps, iterations});
     all.push_back({Kind::deformableImplicit, substeps, 10});
     all.push_back({Kind::deformableExplicit, substeps, 10});
   }
