@@ -14,6 +14,7 @@ constexpr double kStaleRatio = 2;  // a worse preconditioner costs accuracy by t
 constexpr double kBlockWeight = 0.3;  // w: 0.15 to 0.5 do alike
 constexpr double kRounding = 1e-12;   // of E
 constexpr double kWeak = 0.005;       // of what else holds both ends
+constexpr double kSolved = 1e-20;     // of the slope: the square of what is left, which then is rounding
 constexpr int kHalvings = 20;
 
 bool isStale(double present, double factored) {
@@ -82,12 +83,14 @@ void SpringSolver::solve(const std::vector<Spring>& springs, std::vector<SpringN
   }
 }
 
-// From here a cloth at rest has nothing left to solve, and it stays at rest.
+// From x0 + dt v, where a cloth at rest has nothing left to solve, and stays at rest; from x0 if springs would be far
+// too long or short there. E(x0) is the energy of the last step, which then is a bound of the next one's.
 void SpringSolver::start(const std::vector<SpringNode>& nodes, double dt) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Vector inertial;
     for (std::size_t c = 0; c < 3; ++c) {
       m_positions[i][c] = nodes[i].position[c] + dt * nodes[i].velocity[c];
+      m_start[i][c] = nodes[i].isFixed ? m_positions[i][c] : nodes[i].position[c];
       inertial[c] = m_positions[i][c] + dt * dt * nodes[i].acceleration[c];
     }
     m_energy.setInertia(i, inertial, nodes[i].isFixed ? 0 : nodes[i].mass / (dt * dt));
@@ -96,7 +99,11 @@ void SpringSolver::start(const std::vector<SpringNode>& nodes, double dt) {
 
 // One step of Newton's method, or as much of it as does not raise E.
 void SpringSolver::descend(const std::vector<Spring>& springs, int iterations) {
-  const double most = m_energy.linearize(springs, m_positions, m_residual) * (1 + kRounding);
+  double energy = m_energy.linearize(springs, m_positions, m_residual);
+  if (m_energy.at(springs, m_start) < energy) {
+    m_positions = m_start;
+    energy = m_energy.linearize(springs, m_positions, m_residual);
+  }
   solveLinearized(iterations);
   m_start = m_positions;
   double share = 1;
@@ -104,7 +111,7 @@ void SpringSolver::descend(const std::vector<Spring>& springs, int iterations) {
     for (std::size_t i = 0; i < m_positions.size(); ++i) {
       for (std::size_t c = 0; c < 3; ++c) m_positions[i][c] = m_start[i][c] + share * m_change[i][c];
     }
-    if (m_energy.at(springs, m_positions) <= most) return;
+    if (m_energy.at(springs, m_positions) <= energy * (1 + kRounding)) return;
     share /= 2;
   }
   m_positions = m_start;
@@ -115,15 +122,17 @@ void SpringSolver::solveLinearized(int iterations) {
   std::fill(m_change.begin(), m_change.end(), Vector{});
   std::fill(m_direction.begin(), m_direction.end(), Vector{});
   double previous = 1;
+  double least = 0;
   for (int iteration = 0; iteration < iterations; ++iteration) {
-    const double decrease = precondition();
-    if (!(decrease > 0)) return;  // solved
-    const double kept = decrease / previous;
-    previous = decrease;
+    const double slope = precondition();
+    if (iteration == 0) least = kSolved * slope;
+    if (!(slope > least)) break;
+    const double kept = slope / previous;
+    previous = slope;
     for (std::size_t i = 0; i < m_direction.size(); ++i) {
       for (std::size_t c = 0; c < 3; ++c) m_direction[i][c] = m_preconditioned[i][c] + kept * m_direction[i][c];
     }
-    const double step = decrease / m_energy.multiply(m_direction, m_product);
+    const double step = slope / m_energy.multiply(m_direction, m_product);
     for (std::size_t i = 0; i < m_change.size(); ++i) {
       for (std::size_t c = 0; c < 3; ++c) {
         m_change[i][c] += step * m_direction[i][c];

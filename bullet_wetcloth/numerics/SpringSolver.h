@@ -26,12 +26,12 @@ struct SpringNode {
 
 /// Backward Euler for a net of Hooke springs.
 ///
-/// Minimises SpringEnergy, with y = x0 + dt (v + dt g), by one step of Newton's method from x0 + dt v, whose linear
-/// equations conjugate gradients solve in a few iterations. They are preconditioned by A^-1 + w D^-1: A = M / dt^2 + L,
-/// L the springs' weighted Laplacian, is the Hessian if all springs were equally stiff across their length (Liu et al.
-/// 2013; without the weakest springs), and reaches through the whole net where it is stiff; D, the Hessian's blocks of
-/// 3 x 3, serves the directions in which springs are soft and a node's own inertia decides. The step is halved until E
-/// does not rise, whatever the stiffness and the step.
+/// Minimises SpringEnergy, with y = x0 + dt (v + dt g), by one step of Newton's method from x0 + dt v, or from x0 if E
+/// is less there, whose linear equations conjugate gradients solve in a few iterations. They are preconditioned by A^-1
+/// + w D^-1: A = M / dt^2 + L, L the springs' weighted Laplacian, is the Hessian if all springs were equally stiff
+/// across their length (Liu et al. 2013; without the weakest springs), and reaches through the whole net where it is
+/// stiff; D, the Hessian's blocks of 3 x 3, serves the directions in which springs are soft and a node's own inertia
+/// decides. The step is halved until E does not rise, whatever the stiffness and the step.
 ///
 /// E has the present masses and forces, so neither the state at rest nor what is conserved depends on A, which is
 /// factored only when a node was freed or held, or m / dt^2 of one or the stiffness of a spring is more than twice or

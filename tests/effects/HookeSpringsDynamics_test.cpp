@@ -226,6 +226,57 @@ TEST_P(HookeSpringsDynamics, PeriodOfAMassOnASpringApproachesTheClosedForm) {
   EXPECT_NEAR(period(GetParam(), 40, 0.1, 1.0 / 1024, 3) / exact, 1, 2e-3);
 }
 
+/// L_n(x) of Laguerre.
+double laguerre(int n, double x) {
+  double before = 0;
+  double value = 1;
+  for (int i = 0; i < n; ++i) {
+    const double next = ((2 * i + 1 - x) * value - i * before) / (i + 1);
+    before = value;
+    value = next;
+  }
+  return value;
+}
+
+/// Where L_n, which is 1 at 0, first is 0.
+double firstRootOfLaguerre(int n) {
+  double low = 0;
+  double high = 2.0 / n;  // the root is about 1.446 / n
+  while (high - low > 1e-12) {
+    const double middle = (low + high) / 2;
+    (laguerre(n, middle) > 0 ? low : high) = middle;
+  }
+  return low;
+}
+
+// A chain of n light, stiff links of length a in its slowest mode: node i from below is displaced by L_i(r), r the
+// first root of L_n, and omega^2 = r g / a. So it follows from T_i = (i + 1) m g and L's own recurrence.
+TEST_P(HookeSpringsDynamics, PeriodOfAHangingChainIsThatOfItsSlowestMode) {
+  const int links = 20;
+  const double length = 0.05;
+  const double root = firstRootOfLaguerre(links);
+  const double exact = 2 * kPi / std::sqrt(root * 9.81 / length);  // 1.67 s
+  for (const double dt : {1.0 / 120, 1.0 / 240}) {
+    ClothScene scene(GetParam(), kEarthGravity, hangingRope(links, length, 2.4e-4));
+    scene.cloth().add<HookeSprings>(springs(1000));
+    for (int i = 1; i <= links; ++i) {
+      scene.node(i).m_x.setX(btScalar(0.03 * laguerre(links - i, root)));
+      scene.node(i).m_q = scene.node(i).m_x;
+    }
+    double previous = 0.03;
+    std::vector<double> passages;
+    for (int step = 1; step < 5 / dt; ++step) {
+      scene.step(1, dt);
+      const double x = double(scene.node(links).m_x.x());
+      if ((x > 0) != (previous > 0)) passages.push_back(dt * (step - x / (x - previous)));
+      previous = x;
+    }
+    ASSERT_GE(passages.size(), 3u) << dt;
+    const double measured = 2 * (passages.back() - passages.front()) / double(passages.size() - 1);
+    EXPECT_NEAR(measured / exact, 1, 0.03) << dt;
+  }
+}
+
 WETCLOTH_IN_EVERY_WORLD(HookeSpringsDynamics);
 
 }  // namespace

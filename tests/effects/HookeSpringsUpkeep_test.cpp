@@ -91,17 +91,32 @@ TEST_P(HookeSpringsUpkeep, FactorsNothingWhileNothingChanges) {
   EXPECT_EQ(effect.factorizations(), once);
 }
 
-TEST_P(HookeSpringsUpkeep, FactorsSeldomWhileTheClothSoaks) {
+// 1.84 times the mass, and 1.84 times less.
+TEST_P(HookeSpringsUpkeep, FactorsOnceWhileTheClothSoaksAndDries) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));
   HookeSprings& effect = scene.cloth().add<HookeSprings>();
-  wetcloth::Absorption::Parameters ramp;
-  ramp.law = wetcloth::Absorption::Law::ramp;
-  ramp.rampDuration = 2;
-  scene.cloth().add<wetcloth::Absorption>(ramp);
-  scene.step(480);
-  // 1.84 times the mass in steps of 2 % is ln 1.84 / ln 1.02 = 31 times.
-  EXPECT_GE(effect.factorizations(), 5);
-  EXPECT_LE(effect.factorizations(), 40);
+  for (int step = 0; step <= 480; ++step) {
+    scene.cloth().setSaturation(1 - std::fabs(step / 240.0 - 1));
+    scene.step(1);
+  }
+  EXPECT_EQ(effect.factorizations(), 1);
+}
+
+TEST_P(HookeSpringsUpkeep, FactorsOnceWhileStiffnessesStayWithinHalfAndTwice) {
+  ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));
+  HookeSprings& effect = scene.cloth().add<HookeSprings>();
+  scene.step(1);
+  HookeSprings::Parameters parameters = effect.parameters();
+  for (const double factor : {1.9, 0.55}) {
+    parameters.stiffness = 1000 * factor;
+    effect.setParameters(parameters);
+    scene.step(5);
+    EXPECT_EQ(effect.factorizations(), 1) << factor;
+  }
+  parameters.stiffness = 1000 * 2.1;
+  effect.setParameters(parameters);
+  scene.step(5);
+  EXPECT_EQ(effect.factorizations(), 2);
 }
 
 TEST_P(HookeSpringsUpkeep, FactorsAnewWhenTheStepChanges) {
