@@ -23,7 +23,8 @@ WaterClock::Turn WaterClock::tick(double dt, int n) {
   const bool isTurn = m_count == n / 2;
   m_count = m_count + 1 == n ? 0 : m_count + 1;
   if (!isTurn) return {0, 0};
-  const double ahead = (n - 1 - n / 2) * dt;
+  const int substepsLeft = n - 1 - n / 2;
+  const double ahead = substepsLeft * dt;
   const double length = ahead - m_ahead;
   if (!(length > 0)) return {0, 0};  // substeps have become shorter
   m_ahead = ahead;
