@@ -140,9 +140,8 @@ TEST_P(WetStiffnessSprings, FactorTheirMatrixSeldom) {
   ramp.rampDuration = 2;
   scene.cloth().add<wetcloth::Absorption>(ramp);
   scene.step(500);
-  // 1.84 times the mass in steps of 2 %: 31. A quarter of a stiffness in steps of 5 %: 28.
-  EXPECT_GE(effect.factorizations(), 20);
-  EXPECT_LE(effect.factorizations(), 31 + 28 + 2);
+  // At first, and when the bending stiffness has halved on its way to a quarter.
+  EXPECT_EQ(effect.factorizations(), 2);
   const long long soaked = effect.factorizations();
   scene.step(100);
   EXPECT_EQ(effect.factorizations(), soaked);
