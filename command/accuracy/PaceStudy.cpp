@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Zlib
+#include "command/accuracy/Advice.h"
+#include "command/accuracy/ParetoFront.h"
 #include "command/accuracy/Specimen.h"
 #include "command/accuracy/Studies.h"
 
@@ -96,6 +98,53 @@ void addPoint(Plan& plan, const Soaking& soaking, const WaterPace& pace, double 
   plan.settings.push_back(std::move(setting));
 }
 
+/// The worst of all cloths at each setting, at the mean of their times.
+std::vector<Point> worstOf(const std::vector<Point>& points) {
+  std::vector<Point> worst;
+  const double share = 1 / static_cast<double>(soakings().size());
+  for (const Point& point : points) {
+    const auto isSame = [&](const Point& other) { return other.label == point.label; };
+    if (std::none_of(worst.begin(), worst.end(), isSame)) {
+      worst.push_back(point);
+      worst.back().method = "worst of the four";
+      worst.back().nanosecondsPerNodeStep = worst.back().microsecondsPerNodeSecond = 0;
+    }
+    Point& all = *std::find_if(worst.begin(), worst.end(), isSame);
+    if (!(point.error <= all.error)) all.error = point.error;  // NaN, too
+    all.nanosecondsPerNodeStep += share * point.nanosecondsPerNodeStep;
+    all.microsecondsPerNodeSecond += share * point.microsecondsPerNodeSecond;
+  }
+  return worst;
+}
+
+/// The cloths are four questions, not four ways to answer one: what is compared is the worst of them.
+void compareTheWorst(Study& study) {
+  const std::vector<Point> worst = worstOf(study.points);
+  for (Point& point : study.points) point.isCompared = false;
+  study.points.insert(study.points.end(), worst.begin(), worst.end());
+  markFront(study.points);
+}
+
+/// The longest pace at which the worst of them stays within an error; "nothing" where none does.
+std::string longestWithin(const Study& study, double error) {
+  const Point* longest = nullptr;
+  for (const Point& point : study.points) {
+    const bool isGood = point.isCompared && point.error <= error;
+    if (isGood && (longest == nullptr || point.knob > longest->knob)) longest = &point;
+  }
+  return longest == nullptr ? "nothing" : longest->label + " (" + errorText(longest->error) + ")";
+}
+
+std::vector<Study> compare(const Plan& plan, const Effort& effort, const TellProgress& tell) {
+  std::vector<Study> studies = carryOut(plan, effort, tell);
+  for (Study& study : studies) {
+    compareTheWorst(study);
+    study.advice = "All four stay within 0.1 % up to " + longestWithin(study, 1e-3) + ", within 1 % up to " +
+                   longestWithin(study, 1e-2) + ".";
+  }
+  return studies;
+}
+
 std::vector<Study> studyRate(const Effort& effort, const TellProgress& tell) {
   constexpr double dt = 1. / 60;
   Plan plan = planOf("water_rate", "Soaking cloth whose water moves in every n-th substep of 1/60 s", "n");
@@ -108,7 +157,7 @@ std::vector<Study> studyRate(const Effort& effort, const TellProgress& tell) {
       addPoint(plan, soaking, pace, dt, n, "every " + std::to_string(n));
     }
   }
-  return carryOut(plan, effort, tell);
+  return compare(plan, effort, tell);
 }
 
 std::vector<Study> studyTolerance(const Effort& effort, const TellProgress& tell) {
@@ -127,7 +176,7 @@ std::vector<Study> studyTolerance(const Effort& effort, const TellProgress& tell
       addPoint(plan, soaking, pace, dt, tolerance, label);
     }
   }
-  return carryOut(plan, effort, tell);
+  return compare(plan, effort, tell);
 }
 
 }  // namespace

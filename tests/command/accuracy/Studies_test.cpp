@@ -88,7 +88,13 @@ TEST(Studies, TheDefaultPaceOfWaterStaysBelowATenthOfAPercent) {
     EXPECT_LT(errorOf(rate, soaking + ", every 5"), 1e-3) << soaking;
     EXPECT_LT(errorOf(tolerance, soaking + ", 0.1 %"), 1e-3) << soaking;
     EXPECT_GT(errorOf(rate, soaking + ", every 25"), errorOf(rate, soaking + ", every 5")) << soaking;
+    EXPECT_LE(errorOf(rate, soaking + ", every 25"), errorOf(rate, "worst of the four, every 25")) << soaking;
   }
+  // No cloth is advised instead of another.
+  for (const Study* study : {&rate, &tolerance}) {
+    for (const Point& point : study->points) EXPECT_EQ(point.isCompared, point.method == "worst of the four");
+  }
+  EXPECT_NE(rate.advice.find("within 0.1 % up to every 5"), std::string::npos) << rate.advice;
 }
 
 TEST(Studies, AbsorptionHasTheOrdersOfItsIntegrators) {
