@@ -4,6 +4,9 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
@@ -11,9 +14,16 @@ void requireValid(const WaterPace& pace) {
   if (pace.everySubsteps < 1 || pace.everySubsteps > 1000) {
     rejectValue("WaterPace.everySubsteps", pace.everySubsteps, "a number from 1 to 1000");
   }
+  requirePositive("WaterPace.longestStep", pace.longestStep);
   if (!(pace.massTolerance >= 0 && pace.massTolerance <= 0.1)) {
     rejectValue("WaterPace.massTolerance", pace.massTolerance, "in [0, 0.1]");
   }
+}
+
+int WaterPace::substepsOf(double dt) const {
+  constexpr double rounding = 1 + 1e-6;  // of a substep in float
+  const double most = std::floor(longestStep / dt * rounding);
+  return most < everySubsteps ? std::max(static_cast<int>(most), 1) : everySubsteps;
 }
 
 // In the middle of n substeps of dt it moves by n dt, so that it is exact at their end.

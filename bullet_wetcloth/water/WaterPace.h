@@ -15,13 +15,18 @@ struct WETCLOTH_EXPORT WaterPace {
   /// time of all of them, in the middle one. Their laws hold for any time. With an odd number water is as long ahead of
   /// the cloth as behind it, so that its delay cancels; 1: in every substep.
   int everySubsteps = 5;
+  /// But no less often than this [s], > 0: with longer substeps it moves in fewer of them, and beyond in each.
+  double longestStep = 0.1;
   /// Masses, momentum of what arrived, and links' constants are written when at some node they would change its mass by
   /// more than this share, [0, 0.1], or when water has come to rest. Nothing is lost meanwhile. 0: whenever water
   /// moved.
   double massTolerance = 1e-3;
 
   /// Water and weight in every substep: the most exact.
-  static WaterPace exact() { return {1, 0}; }
+  static WaterPace exact() { return {1, 0.1, 0}; }
+
+  /// In how many substeps of this length water moves once [s].
+  int substepsOf(double dt) const;
 };
 
 /// Throws std::invalid_argument naming the field and its value when it is out of its range.

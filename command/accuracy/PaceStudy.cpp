@@ -154,6 +154,7 @@ std::vector<Study> studyRate(const Effort& effort, const TellProgress& tell) {
     for (const int n : every) {
       WaterPace pace = WaterPace::exact();
       pace.everySubsteps = n;
+      pace.longestStep = 1;
       addPoint(plan, soaking, pace, dt, n, "every " + std::to_string(n));
     }
   }

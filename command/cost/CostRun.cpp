@@ -56,7 +56,7 @@ void CostRun::turn(int most) {
 
 int CostRun::measuredPerTurn() const {
   int most = 3;
-  for (const ClothScene& cloth : m_scene.cloths) most = std::max(most, cloth.pace.everySubsteps);
+  for (const ClothScene& cloth : m_scene.cloths) most = std::max(most, cloth.pace.substepsOf(m_scene.step));
   return most;
 }
 

@@ -33,7 +33,7 @@ inline const KeyTable fabric{
     "fabric",
     {"preset", "name", "capacity_kg_per_kg", "time_constant_s", "areal_density_kg_m2", "colour", "roughness"}};
 
-inline const KeyTable waterPace{"waterPace", {"every_substeps", "mass_tolerance"}};
+inline const KeyTable waterPace{"waterPace", {"every_substeps", "longest_step_s", "mass_tolerance"}};
 
 inline const KeyTable obj{"obj", {"file", "scale", "rotation_deg", "translation_m"}};
 

@@ -202,6 +202,7 @@ wetcloth::WaterPace readPace(JsonCursor cursor) {
   cursor.expectObject(keys::waterPace);
   wetcloth::WaterPace pace;
   if (const auto every = cursor.find("every_substeps")) pace.everySubsteps = every->integer(1, 1000);
+  readNumber(cursor, "longest_step_s", Range::positive(), pace.longestStep);
   readNumber(cursor, "mass_tolerance", Range{0, 0.1, true, "in [0, 0.1]"}, pace.massTolerance);
   return pace;
 }

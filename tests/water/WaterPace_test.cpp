@@ -63,6 +63,16 @@ TEST(WaterClock, StepsOfWaterAdjoinWhateverTheSubsteps) {
   }
 }
 
+TEST(WaterPace, IsNoSlowerThanItsLongestStep) {
+  const WaterPace pace;
+  EXPECT_EQ(pace.substepsOf(1.0 / 240), 5);
+  EXPECT_EQ(pace.substepsOf(1.0 / 60), 5);
+  EXPECT_EQ(pace.substepsOf(static_cast<double>(1.0f / 30)), 3);
+  EXPECT_EQ(pace.substepsOf(1.0 / 16), 1);
+  EXPECT_EQ(pace.substepsOf(10), 1);
+  EXPECT_EQ(WaterPace::exact().substepsOf(1.0 / 240), 1);
+}
+
 class WaterPaceInWorld : public InEveryWorld {};
 WETCLOTH_IN_EVERY_WORLD(WaterPaceInWorld);
 
@@ -151,9 +161,10 @@ TEST_P(WaterPaceInWorld, ASavedStateGoesOnInTheMiddleOfATurn) {
 
 TEST(WaterPace, BadValuesAreNamedAndChangeNothing) {
   ClothScene scene(WorldKind::softRigid, btVector3(0, 0, 0), squarePatch(3));
-  const auto set = [&](int every, double tolerance) {
-    return [&scene, every, tolerance] {
+  const auto set = [&](int every, double tolerance, double longest = 1) {
+    return [&scene, every, tolerance, longest] {
       WaterPace pace;
+      pace.longestStep = longest;
       pace.everySubsteps = every;
       pace.massTolerance = tolerance;
       scene.cloth().setPace(pace);
@@ -165,6 +176,7 @@ TEST(WaterPace, BadValuesAreNamedAndChangeNothing) {
   EXPECT_NE(rejection(set(1, 0.2)).find("WaterPace.massTolerance = 0.2"), std::string::npos);
   EXPECT_NE(rejection(set(1, std::numeric_limits<double>::quiet_NaN())).find("WaterPace.massTolerance = "),
             std::string::npos);
+  EXPECT_NE(rejection(set(1, 0, 0)).find("WaterPace.longestStep = 0"), std::string::npos);
   EXPECT_EQ(scene.cloth().pace().everySubsteps, 1);
   EXPECT_EQ(scene.cloth().pace().massTolerance, 0);
 }
