@@ -111,7 +111,10 @@ Subject effect(const char* name, const typename Effect::Parameters& parameters =
                   cloth.wet().setSaturation(0.5);
                   cloth.step();
                 },
-                [&](BenchCloth& cloth) { cloth.wet().add<Effect>(parameters); });
+                [&](BenchCloth& cloth) {
+                  cloth.wet().setPace(wetcloth::WaterPace::exact());
+                  cloth.wet().add<Effect>(parameters);
+                });
           }};
 }
 
