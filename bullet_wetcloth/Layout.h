@@ -13,12 +13,12 @@ inline namespace WETCLOTH_PRECISION {
 /// wrongly. kLayout has the numbers: an inline function that the library calls, too, would be one
 /// of the two to the linker.
 struct Layout {
-  std::size_t vector;
-  std::size_t string;
-  std::size_t function;
-  std::size_t softBody;
-  std::size_t wetCloth;
-  std::size_t wetClothWorld;
+  std::size_t vector;         ///< sizeof(std::vector<int>)
+  std::size_t string;         ///< sizeof(std::string)
+  std::size_t function;       ///< sizeof a std::function
+  std::size_t softBody;       ///< sizeof(btSoftBody)
+  std::size_t wetCloth;       ///< sizeof(WetCloth)
+  std::size_t wetClothWorld;  ///< sizeof(WetClothWorld)
 };
 
 /// Throws std::invalid_argument naming the first type of which the application has another idea than the library.

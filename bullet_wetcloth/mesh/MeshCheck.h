@@ -17,8 +17,8 @@ struct WETCLOTH_EXPORT MeshReport {
   /// Nodes nearer than this are in one place, as a share of the mesh's size: what text and float32 round to.
   static constexpr double toleranceOfSize = 1e-6;
 
-  int nodes = 0;
-  int faces = 0;
+  int nodes = 0;                     ///< in number
+  int faces = 0;                     ///< in number
   double size = 0;                   ///< diagonal of the box round all nodes [m]
   double tolerance = 0;              ///< toleranceOfSize * size [m]
   std::vector<int> firstAt;          ///< of each node: the first node in its place, itself where it is alone

@@ -17,6 +17,7 @@ class StateArchive;
 /// whether somebody else has changed them, as btSoftBody::scale() does.
 class WETCLOTH_EXPORT RestLengths {
  public:
+  /// Of this body, which must outlive it.
   explicit RestLengths(const btSoftBody& body) : m_body(body) {}
 
   /// Takes the lengths as they are now for known. Until the first time nothing is watched.
@@ -33,6 +34,7 @@ class WETCLOTH_EXPORT RestLengths {
   /// transforms a running body, by which Bullet resets its rest lengths, in every step is followed once in 32.
   bool haveChanged();
 
+  /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
 
  private:

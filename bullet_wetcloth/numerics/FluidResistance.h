@@ -15,8 +15,8 @@ inline namespace WETCLOTH_PRECISION {
 /// A triangle's unit normal and its area [m^2]. Both are 0 for a triangle without area, or whose corners are not
 /// finite.
 struct FlatTriangle {
-  btVector3 normal;
-  btScalar area;
+  btVector3 normal;  ///< of length 1
+  btScalar area;     ///< [m^2]
 };
 
 inline FlatTriangle flatTriangle(const btVector3& a, const btVector3& b, const btVector3& c) {
@@ -46,6 +46,7 @@ struct FluidResistance {
   btScalar normal(btScalar speed, btScalar specificArea) const {
     return linear + quadratic * dampedSpeed(speed, dt * quadratic * specificArea);
   }
+  /// The same along the surface.
   btScalar tangent(btScalar speed, btScalar specificArea) const {
     return friction * dampedSpeed(speed, dt * friction * specificArea);
   }

@@ -37,9 +37,10 @@ class WETCLOTH_EXPORT LinkSaturation {
   std::size_t size() const { return m_links.size(); }
   /// The nodes of a link.
   struct Ends {
-    std::size_t a;
-    std::size_t b;
+    std::size_t a;  ///< in btSoftBody::m_nodes
+    std::size_t b;  ///< in btSoftBody::m_nodes
   };
+  /// Those of a link.
   const Ends& ends(std::size_t link) const { return m_links[link]; }
   /// Of a link, in [0, 1].
   double operator[](std::size_t link) const {

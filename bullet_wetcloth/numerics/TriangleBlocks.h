@@ -17,10 +17,12 @@ inline namespace WETCLOTH_PRECISION {
 /// makes blocks whose corners are gathered one by one.
 class TriangleBlocks {
  public:
-  /// Triangles in a block, at most, and what blocks of runs are filled up to a multiple of.
+  /// Triangles in a block, at most.
   static constexpr std::size_t kSize = 64;
+  /// Blocks are filled up to a multiple of this.
   static constexpr std::size_t kLanes = 8;
 
+  /// Its nodes.
   using Triangle = std::array<int, 3>;
 
   /// Lane k of a run has the corners first[0] + k, first[1] + k, first[2] + k; those of other blocks are listed.
@@ -28,12 +30,13 @@ class TriangleBlocks {
     std::size_t lanes;      ///< a multiple of kLanes, at most kSize
     std::size_t firstLane;  ///< of the block, among those of all blocks
     Triangle first;         ///< of a run
-    bool isRun;
+    bool isRun;             ///< whether the corners follow from `first`
   };
 
   /// Sorts these triangles, of which no two are the same, into blocks.
   void reset(std::vector<Triangle> triangles);
 
+  /// In which the triangles are.
   const std::vector<Block>& blocks() const { return m_blocks; }
   /// Whether there is a triangle in a lane: 1, or 0.
   const btScalar* isTaken(const Block& block) const { return m_isTaken.data() + block.firstLane; }

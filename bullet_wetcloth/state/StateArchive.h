@@ -76,6 +76,7 @@ class WETCLOTH_EXPORT StateArchive {
     static_assert(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>);
     bytes(&value, sizeof value, Target::scratch);
   }
+  /// The same of a vector.
   void local(btVector3& value) { bytes(value.m_floats, 3 * sizeof(btScalar), Target::scratch); }
 
   /// All numbers of an array whose length is that of the object here.
