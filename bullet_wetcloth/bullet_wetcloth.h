@@ -32,5 +32,6 @@
 #include "bullet_wetcloth/mesh/LooseNodes.h"
 #include "bullet_wetcloth/mesh/MeshCheck.h"
 #include "bullet_wetcloth/shading/Colour.h"
+#include "bullet_wetcloth/solver/ClothSolver.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 #include "bullet_wetcloth/state/StateError.h"

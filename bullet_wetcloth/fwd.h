@@ -17,6 +17,8 @@ struct Step;
 enum class Hook;
 enum class Stage;
 
+class ClothSolver;
+
 class Absorption;
 class Cling;
 class CollisionAudit;

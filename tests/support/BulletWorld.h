@@ -48,12 +48,15 @@ inline btDefaultCollisionConstructionInfo smallPools() {
 /// that are added stay the caller's, who may destroy them before or after the world.
 class BulletWorld {
  public:
-  explicit BulletWorld(WorldKind kind, const btVector3& gravity = kEarthGravity) : m_kind(kind) {
+  /// A solver of soft bodies other than Bullet's own is for the two position-based worlds, and outlives this.
+  explicit BulletWorld(WorldKind kind, const btVector3& gravity = kEarthGravity, btSoftBodySolver* solver = nullptr)
+      : m_kind(kind) {
     if (kind == WorldKind::softRigid) {
-      m_world = std::make_unique<btSoftRigidDynamicsWorld>(&m_dispatcher, &m_broadphase, &m_solver, &m_configuration);
+      m_world = std::make_unique<btSoftRigidDynamicsWorld>(&m_dispatcher, &m_broadphase, &m_solver, &m_configuration,
+                                                           solver);
     } else if (kind == WorldKind::softMultiBody) {
       m_world = std::make_unique<btSoftMultiBodyDynamicsWorld>(&m_dispatcher, &m_broadphase, &m_multiBodySolver,
-                                                               &m_configuration);
+                                                               &m_configuration, solver);
     } else {
       m_deformableConstraintSolver.setDeformableSolver(&m_deformableSolver);
       m_world = std::make_unique<btDeformableMultiBodyDynamicsWorld>(

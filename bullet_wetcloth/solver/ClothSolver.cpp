@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Zlib
+#include "bullet_wetcloth/solver/ClothSolver.h"
+
+#include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/solver/PackedCloth.h"
+#include "bullet_wetcloth/solver/WhyNotTaken.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <utility>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+void requireValid(const ClothSolver::Parameters& parameters) {
+  constexpr int kMostSmallSteps = 1000;
+  if (parameters.smallSteps < 1 || parameters.smallSteps > kMostSmallSteps) {
+    rejectValue("ClothSolver.smallSteps", parameters.smallSteps, "in [1, 1000]");
+  }
+  if (!(parameters.stiffness > 0)) rejectValue("ClothSolver.stiffness", parameters.stiffness, "> 0");
+}
+
+}  // namespace
+
+class ClothSolver::Impl {
+ public:
+  // A cloth that was taken, and what was said about it.
+  struct Taken {
+    explicit Taken(btSoftBody& body) : cloth(body) {}
+    PackedCloth cloth;
+    unsigned long long linksSeen = 0;  // PackedCloth::linksTaken() when small steps were last counted
+    btScalar dtSeen = 0;
+    int smallStepsSeen = 0;
+    bool isStuck = false;
+  };
+
+  Taken* find(const btSoftBody& body) {
+    for (const auto& taken : cloths) {
+      if (&taken->cloth.body() == &body) return taken.get();
+    }
+    return nullptr;
+  }
+
+  void log(const std::string& message) const {
+    if (logger) logger(message);
+  }
+
+  void warnOfBadNode(Taken& taken) const;
+  void warnOfSmallSteps(Taken& taken, btScalar dt) const;
+
+  Parameters parameters;
+  std::vector<std::unique_ptr<Taken>> cloths;  // of bodies that are in the world
+  SmallStepCallback callback;
+  std::function<void(const std::string&)> logger = [](const std::string& message) { std::clog << message << '\n'; };
+};
+
+void ClothSolver::Impl::warnOfBadNode(Taken& taken) const {
+  const int node = taken.cloth.badNode();
+  if (node >= 0 && !taken.isStuck) {
+    log("wetcloth: node " + std::to_string(node) + " of a cloth is not finite; the cloth is not stepped until it is");
+  }
+  taken.isStuck = node >= 0;
+}
+
+// Counted again when links, the step or the number of small steps have changed.
+void ClothSolver::Impl::warnOfSmallSteps(Taken& taken, btScalar dt) const {
+  const bool isKnown = taken.linksSeen == taken.cloth.linksTaken() && taken.dtSeen == dt &&
+                       taken.smallStepsSeen == parameters.smallSteps;
+  if (isKnown) return;
+  taken.linksSeen = taken.cloth.linksTaken();
+  taken.dtSeen = dt;
+  taken.smallStepsSeen = parameters.smallSteps;
+  const int needed = taken.cloth.smallStepsFor(dt);
+  if (needed <= parameters.smallSteps) return;
+  log("wetcloth: a cloth's links stretch further than their stiffness says: that takes " + std::to_string(needed) +
+      " small steps in a step of " + std::to_string(dt) + " s, and ClothSolver has " +
+      std::to_string(parameters.smallSteps));
+}
+
+ClothSolver::ClothSolver() : ClothSolver(Parameters()) {}
+
+ClothSolver::ClothSolver(const Parameters& parameters) : m_impl(std::make_unique<Impl>()) { setParameters(parameters); }
+
+ClothSolver::~ClothSolver() = default;
+
+const ClothSolver::Parameters& ClothSolver::parameters() const { return m_impl->parameters; }
+
+void ClothSolver::setParameters(const Parameters& parameters) {
+  requireValid(parameters);
+  m_impl->parameters = parameters;
+}
+
+std::string ClothSolver::reasonNotTaken(const btSoftBody& body) const {
+  const std::string why = whyNotTaken(body);
+  if (!why.empty()) return why;
+  const Impl::Taken* const taken = m_impl->find(body);
+  if (taken && taken->isStuck) return "node " + std::to_string(taken->cloth.badNode()) + " is not finite";
+  return "";
+}
+
+int ClothSolver::smallStepsFor(const btSoftBody& body, double dt) const {
+  requirePositive("dt", dt);
+  const Impl::Taken* const taken = m_impl->find(body);
+  return taken ? taken->cloth.smallStepsFor(static_cast<btScalar>(dt)) : 1;
+}
+
+void ClothSolver::setSmallStepCallback(SmallStepCallback callback) { m_impl->callback = std::move(callback); }
+void ClothSolver::setLog(std::function<void(const std::string&)> log) { m_impl->logger = std::move(log); }
+
+// Called at the start of every step. Bodies that left the world may have been deleted: only addresses are compared.
+void ClothSolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool forceUpdate) {
+  btDefaultSoftBodySolver::optimize(bodies, forceUpdate);
+  std::vector<std::unique_ptr<Impl::Taken>> cloths;
+  cloths.swap(m_impl->cloths);
+  for (int k = 0; k < bodies.size(); ++k) {
+    if (whyNotTaken(*bodies[k])[0] != '\0') continue;
+    const auto known = std::find_if(cloths.begin(), cloths.end(), [&](const std::unique_ptr<Impl::Taken>& taken) {
+      return taken && &taken->cloth.body() == bodies[k];
+    });
+    m_impl->cloths.push_back(known != cloths.end() ? std::move(*known) : std::make_unique<Impl::Taken>(*bodies[k]));
+  }
+}
+
+void ClothSolver::predictMotion(btScalar dt) {
+  for (int k = 0; k < m_softBodySet.size(); ++k) {
+    btSoftBody& body = *m_softBodySet[k];
+    if (!body.isActive()) continue;
+    Impl::Taken* const taken = m_impl->find(body);
+    if (!taken) {
+      body.predictMotion(dt);
+      continue;
+    }
+    taken->cloth.follow(m_impl->parameters, dt);
+    m_impl->warnOfSmallSteps(*taken, dt);
+    taken->cloth.predict(dt);
+    m_impl->warnOfBadNode(*taken);
+  }
+}
+
+void ClothSolver::processCollision(btSoftBody* body, const btCollisionObjectWrapper* object) {
+  Impl::Taken* const taken = m_impl->find(*body);
+  taken ? taken->cloth.collide(*object) : btDefaultSoftBodySolver::processCollision(body, object);
+}
+
+void ClothSolver::processCollision(btSoftBody* body, btSoftBody* other) {
+  btDefaultSoftBodySolver::processCollision(body, other);
+}
+
+void ClothSolver::solveConstraints(btScalar) {
+  for (int k = 0; k < m_softBodySet.size(); ++k) {
+    btSoftBody& body = *m_softBodySet[k];
+    if (!body.isActive()) continue;
+    Impl::Taken* const taken = m_impl->find(body);
+    taken ? taken->cloth.solve(m_impl->parameters, m_impl->callback) : body.solveConstraints();
+  }
+}
+
+void ClothSolver::updateSoftBodies() {
+  for (int k = 0; k < m_softBodySet.size(); ++k) {
+    btSoftBody& body = *m_softBodySet[k];
+    if (!body.isActive()) continue;
+    Impl::Taken* const taken = m_impl->find(body);
+    taken ? taken->cloth.finish() : body.integrateMotion();
+  }
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+
+#include <BulletSoftBody/btDefaultSoftBodySolver.h>
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Steps cloths faster and stiffer than Bullet does, behind Bullet's own seam: the last argument of its world.
+///
+///     wetcloth::ClothSolver solver;
+///     btSoftRigidDynamicsWorld world(&dispatcher, &broadphase, &rigidSolver, &configuration, &solver);
+///
+/// For btSoftRigidDynamicsWorld and btSoftMultiBodyDynamicsWorld. In place of many passes over the links in one step it
+/// takes small steps of one pass each (Macklin et al. 2019, "Small steps in physics simulation"), on arrays that a
+/// processor works on several elements at once. Bodies that have what it does not know go on being stepped by Bullet's
+/// own solver, as if this were not there: reasonNotTaken() says why.
+///
+/// It outlives the world. Bodies may be added, removed, cut and changed between steps.
+class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
+ public:
+  /// What can be set, with units and ranges.
+  struct Parameters {
+    /// In each of Bullet's steps, [1, 1000]. Twice as many cost less than twice the time, and stretch a quarter.
+    int smallSteps = 10;
+    /// Of a link whose material has m_kLST = 1 [N/m], > 0; in proportion to it otherwise. Infinite: links do not
+    /// stretch, and those with m_kLST < 1 are as soft as Bullet's own passes leave them, for the masses that the body
+    /// had when it was taken.
+    double stiffness = std::numeric_limits<double>::infinity();
+  };
+
+  /// What the application sees of a body after each small step.
+  struct SmallStepView {
+    const btSoftBody& body;
+    int index;             ///< of the small step, from 0
+    btScalar length;       ///< of the small step [s]
+    const int* slots;      ///< where each node is in the arrays, one number a node
+    const btScalar* x[3];  ///< places, relative to `origin` [m]
+    btVector3 origin;      ///< [m]
+    /// Of a node [m].
+    btVector3 position(int node) const {
+      return btVector3(x[0][slots[node]], x[1][slots[node]], x[2][slots[node]]) + origin;
+    }
+  };
+  /// Called after each small step. It changes nothing.
+  using SmallStepCallback = std::function<void(const SmallStepView&)>;
+
+  /// Throws std::invalid_argument naming the field and the value.
+  explicit ClothSolver(const Parameters& parameters);
+  /// With the defaults.
+  ClothSolver();
+  ~ClothSolver() override;
+  ClothSolver(const ClothSolver&) = delete;
+  ClothSolver& operator=(const ClothSolver&) = delete;
+
+  /// As last set.
+  const Parameters& parameters() const;
+  /// Between steps. Throws as the constructor does; then nothing has changed.
+  void setParameters(const Parameters& parameters);
+
+  /// Why this body is stepped by Bullet's own solver, or not at all; empty: it is taken, from the next step on.
+  std::string reasonNotTaken(const btSoftBody& body) const;
+  /// How many small steps a body needs in a step of dt [s] so that its links stretch as their stiffness says: h^2 is
+  /// then at most the inverse of stiffness and half the sum of both ends' inverse masses, for every link. As the body
+  /// was in the last step; 1 when it was not taken. A link that does not stretch needs none.
+  int smallStepsFor(const btSoftBody& body, double dt) const;
+
+  /// Sees the nodes' places after each small step; an empty one sees nothing.
+  void setSmallStepCallback(SmallStepCallback callback);
+  /// Takes messages, of a cloth that is not finite or whose links need more small steps. The default writes to
+  /// std::clog; an empty function silences them.
+  void setLog(std::function<void(const std::string&)> log);
+
+  // What Bullet's world calls. An application does not.
+
+  void optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool forceUpdate = false) override;
+  void predictMotion(btScalar dt) override;
+  void processCollision(btSoftBody* body, const btCollisionObjectWrapper* object) override;
+  void processCollision(btSoftBody* body, btSoftBody* other) override;
+  void solveConstraints(btScalar dt) override;
+  void updateSoftBodies() override;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Zlib
+#include "bullet_wetcloth/solver/PackedCloth.h"
+
+#include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/solver/WhyNotTaken.h"
+
+#include <BulletSoftBody/btSoftBodyInternals.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+constexpr std::size_t kStepsForAllLinks = 32;  // in which all links are looked at
+
+btScalar inverseMasses(const btSoftBody::Link& link) { return link.m_n[0]->m_im + link.m_n[1]->m_im; }
+
+const void* addressOf(const btAlignedObjectArray<btSoftBody::Node>& array) {
+  return array.size() ? &array[0] : nullptr;
+}
+const void* addressOf(const btAlignedObjectArray<btSoftBody::Link>& array) {
+  return array.size() ? &array[0] : nullptr;
+}
+
+btScalar largestPush(const btSoftBody& body) { return body.m_worldInfo->m_maxDisplacement / body.m_sst.sdt; }
+
+}  // namespace
+
+// --- before the step ------------------------------------------------------------------------------------------------
+
+// A step of another length softens soft links differently, as in Bullet's solver.
+void PackedCloth::follow(const ClothSolver::Parameters& parameters, btScalar dt) {
+  m_isPredicted = m_isSolved = false;
+  const bool restLengthsAreReset = m_body.m_bUpdateRtCst;
+  if (restLengthsAreReset) {
+    m_body.m_bUpdateRtCst = false;
+    m_body.updateConstants();
+    m_body.m_fdbvt.clear();
+  }
+  if (restLengthsAreReset || hasNewMesh()) takeMesh();
+  m_dt = dt * m_body.m_cfg.timescale;
+  if (linksSeemChanged(parameters)) takeLinks(parameters);
+}
+
+bool PackedCloth::hasNewMesh() const {
+  return m_mesh[0] != addressOf(m_body.m_nodes) || m_mesh[1] != addressOf(m_body.m_links) ||
+         m_counts[0] != m_body.m_nodes.size() || m_counts[1] != m_body.m_links.size() ||
+         m_counts[2] != m_body.m_faces.size();
+}
+
+void PackedCloth::takeMesh() {
+  m_mesh[0] = addressOf(m_body.m_nodes);
+  m_mesh[1] = addressOf(m_body.m_links);
+  m_counts[0] = m_body.m_nodes.size();
+  m_counts[1] = m_body.m_links.size();
+  m_counts[2] = m_body.m_faces.size();
+  const NodeSlots slots = findSlots(m_body);
+  m_nodes.reset(slots);
+  m_links.reset(m_body, slots);
+  m_normals.reset(m_body, slots);
+  m_weights.resize(toSize(m_body.m_links.size()));
+  for (int k = 0; k < m_body.m_links.size(); ++k) m_weights[toSize(k)] = inverseMasses(m_body.m_links[k]);
+  m_stiffness = 0;  // of no link: they are taken
+}
+
+// Of a link that Bullet's solver corrects by kLST of what is left in each of its passes: the compliance that lets it
+// hang as far.
+btScalar PackedCloth::complianceOf(const btSoftBody::Link& link, std::size_t index,
+                                   const ClothSolver::Parameters& parameters) const {
+  const double hardness = static_cast<double>(link.m_material->m_kLST);
+  if (std::isfinite(parameters.stiffness)) return static_cast<btScalar>(1 / (parameters.stiffness * hardness));
+  if (hardness >= 1) return 0;
+  const double left = std::pow(1 - hardness, m_body.m_cfg.piterations);
+  const double dt = static_cast<double>(m_dt);
+  return static_cast<btScalar>(static_cast<double>(m_weights[index]) * dt * dt * left / (1 - left));
+}
+
+bool PackedCloth::linksSeemChanged(const ClothSolver::Parameters& parameters) {
+  if (m_stiffness != parameters.stiffness) return true;
+  const std::size_t count = m_links.size();
+  const std::size_t first = m_nextLink < count ? m_nextLink : 0;
+  const std::size_t end = std::min(first + count / kStepsForAllLinks + 1, count);
+  m_nextLink = end;
+  for (std::size_t k = first; k < end; ++k) {
+    const btSoftBody::Link& link = m_body.m_links[static_cast<int>(k)];
+    if (link.m_rl != m_links.restLength(k) || complianceOf(link, k, parameters) != m_links.compliance(k)) return true;
+  }
+  return false;
+}
+
+void PackedCloth::takeLinks(const ClothSolver::Parameters& parameters) {
+  ++m_linksTaken;
+  m_stiffness = parameters.stiffness;
+  for (std::size_t k = 0; k < m_links.size(); ++k) {
+    const btSoftBody::Link& link = m_body.m_links[static_cast<int>(k)];
+    m_links.set(k, link.m_rl, complianceOf(link, k, parameters));
+  }
+}
+
+int PackedCloth::smallStepsFor(btScalar dt) const {
+  double most = 0;
+  for (std::size_t k = 0; k < m_links.size(); ++k) {
+    const double compliance = static_cast<double>(m_links.compliance(k));
+    const double half = static_cast<double>(inverseMasses(m_body.m_links[static_cast<int>(k)])) / 2;
+    if (compliance > 0) most = std::max(most, half / compliance);
+  }
+  return std::max(1, static_cast<int>(std::ceil(static_cast<double>(dt) * std::sqrt(most) * (1 - 1e-6))));
+}
+
+// --- the step -------------------------------------------------------------------------------------------------------
+
+bool PackedCloth::predict(btScalar dt) {
+  m_body.m_sst.sdt = dt * m_body.m_cfg.timescale;
+  m_body.m_sst.isdt = 1 / m_body.m_sst.sdt;
+  m_body.m_sst.velmrg = m_body.m_sst.sdt * 3;
+  m_body.m_sst.radmrg = m_body.getCollisionShape()->getMargin();
+  m_body.m_sst.updmrg = m_body.m_sst.radmrg * btScalar(0.25);
+  m_body.m_rcontacts.resize(0);
+  m_body.m_scontacts.resize(0);
+  m_isPredicted = m_body.m_sst.sdt > 0 && std::isfinite(m_body.m_sst.isdt) && m_nodes.read();
+  if (!m_isPredicted) return false;
+  m_nodes.predict(m_body.m_sst.sdt, m_body.m_worldInfo->m_gravity, largestPush(m_body));
+  updateBounds();
+  updateFaceTree();
+  return true;
+}
+
+void PackedCloth::updateBounds() {
+  btVector3 least(0, 0, 0);
+  btVector3 largest(0, 0, 0);
+  m_nodes.predictedBounds(least, largest);
+  const btVector3 margin = btVector3(1, 1, 1) * m_body.m_sst.radmrg;
+  m_body.m_bounds[0] = least - margin;
+  m_body.m_bounds[1] = largest + margin;
+  if (btBroadphaseProxy* const proxy = m_body.getBroadphaseHandle()) {
+    m_body.m_worldInfo->m_broadphase->setAabb(proxy, m_body.m_bounds[0], m_body.m_bounds[1],
+                                              m_body.m_worldInfo->m_dispatcher);
+  }
+}
+
+// Only a body that an application has given one has it: rays use it.
+void PackedCloth::updateFaceTree() {
+  if (m_body.m_fdbvt.empty()) return;
+  for (int k = 0; k < m_body.m_faces.size(); ++k) {
+    btSoftBody::Face& face = m_body.m_faces[k];
+    const btVector3 velocity = (face.m_n[0]->m_v + face.m_n[1]->m_v + face.m_n[2]->m_v) / 3;
+    btDbvtVolume volume = VolumeOf(face, m_body.m_sst.radmrg);
+    m_body.m_fdbvt.update(face.m_leaf, volume, velocity * m_body.m_sst.velmrg, m_body.m_sst.updmrg);
+  }
+  m_body.m_fdbvt.optimizeIncremental(1);
+}
+
+// Bullet's own detection, of the nodes in the object's box.
+void PackedCloth::collide(const btCollisionObjectWrapper& object) {
+  if (!m_isPredicted || (m_body.m_cfg.collisions & btSoftBody::fCollision::RVSmask) != btSoftBody::fCollision::SDF_RS) {
+    return;
+  }
+  const btScalar margin = m_body.getCollisionShape()->getMargin();
+  btSoftColliders::CollideSDF_RS detection;
+  detection.psb = &m_body;
+  detection.m_colObj1Wrap = &object;
+  detection.m_rigidBody = const_cast<btRigidBody*>(btRigidBody::upcast(object.getCollisionObject()));
+  detection.dynmargin = margin;
+  detection.stamargin = margin;
+  btVector3 least;
+  btVector3 largest;
+  object.getCollisionShape()->getAabb(object.getWorldTransform(), least, largest);
+  const btVector3 around = btVector3(1, 1, 1) * margin;
+  m_nodes.forEachPredictedIn(least - around, largest + around, [&](btSoftBody::Node& node) { detection.DoNode(node); });
+}
+
+void PackedCloth::solve(const ClothSolver::Parameters& parameters, const ClothSolver::SmallStepCallback& callback) {
+  if (!m_isPredicted) return;
+  const int count = parameters.smallSteps;
+  const btScalar keeps = std::pow(1 - m_body.m_cfg.kDP, 1 / static_cast<btScalar>(count));
+  const btScalar push = largestPush(m_body) / static_cast<btScalar>(count);
+  const SmallStep step = {m_body.m_sst.sdt / static_cast<btScalar>(count), m_body.m_worldInfo->m_gravity, keeps, push};
+  const MovingNodes nodes = m_nodes.moving();
+  const LinkedNodes linked = {{nodes.position[0], nodes.position[1], nodes.position[2]}, nodes.inverseMass};
+  m_anchors.prepare(m_body, m_nodes);
+  m_contacts.prepare(m_body, m_nodes, count);
+  for (int k = 0; k < count; ++k) {
+    k == 0 ? step.begin(nodes) : step.advance(nodes);
+    m_anchors.project(nodes, step.h);
+    m_contacts.project(nodes, step.h);
+    m_links.solve(linked, step.h);
+    if (callback) {
+      callback({m_body,
+                k,
+                step.h,
+                m_nodes.slots(),
+                {linked.position[0], linked.position[1], linked.position[2]},
+                m_nodes.origin()});
+    }
+  }
+  step.end(nodes);
+  m_isSolved = true;
+}
+
+void PackedCloth::finish() {
+  if (!m_isSolved) return;
+  m_normals.compute(m_nodes.moving());
+  m_nodes.write(m_normals.lanes());
+  m_normals.writeFaces(m_body, m_nodes.moving());
+  m_isPredicted = m_isSolved = false;
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

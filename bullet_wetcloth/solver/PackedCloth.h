@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/solver/AnchorProjection.h"
+#include "bullet_wetcloth/solver/ClothSolver.h"
+#include "bullet_wetcloth/solver/ContactProjection.h"
+#include "bullet_wetcloth/solver/LocalNodes.h"
+#include "bullet_wetcloth/solver/NodeNormals.h"
+#include "bullet_wetcloth/solver/PackedLinks.h"
+
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// One body that ClothSolver has taken: the parts of its step, in their order.
+class PackedCloth {
+ public:
+  explicit PackedCloth(btSoftBody& body) : m_body(body), m_nodes(body) {}
+
+  btSoftBody& body() { return m_body; }
+  const btSoftBody& body() const { return m_body; }
+  /// The node that is not finite, which keeps the cloth from being stepped; -1: none.
+  int badNode() const { return m_nodes.badNode(); }
+  /// How often its links were taken over: when the body or its links have changed.
+  unsigned long long linksTaken() const { return m_linksTaken; }
+  /// As many small steps as its links need in a step of dt [s] to stretch no further than their stiffness.
+  int smallStepsFor(btScalar dt) const;
+
+  /// Before the step: the mesh, and the links as they are now.
+  void follow(const ClothSolver::Parameters& parameters, btScalar dt);
+  /// Takes over the nodes, and predicts where they will be. False: the cloth rests in this step.
+  bool predict(btScalar dt);
+  /// Finds the contacts with a rigid body or a link of a multibody.
+  void collide(const btCollisionObjectWrapper& object);
+  /// The small steps.
+  void solve(const ClothSolver::Parameters& parameters, const ClothSolver::SmallStepCallback& callback);
+  /// Writes back what Bullet and applications read.
+  void finish();
+
+ private:
+  bool hasNewMesh() const;
+  void takeMesh();
+  void takeLinks(const ClothSolver::Parameters& parameters);
+  bool linksSeemChanged(const ClothSolver::Parameters& parameters);
+  btScalar complianceOf(const btSoftBody::Link& link, std::size_t index,
+                        const ClothSolver::Parameters& parameters) const;
+  void updateBounds();
+  void updateFaceTree();
+
+  btSoftBody& m_body;
+  LocalNodes m_nodes;
+  PackedLinks m_links;
+  NodeNormals m_normals;
+  ContactProjection m_contacts;
+  AnchorProjection m_anchors;
+  std::vector<btScalar> m_weights;  // of each link: the sum of its ends' inverse masses when the mesh was taken
+  const void* m_mesh[2] = {};       // addresses of nodes and links
+  int m_counts[3] = {};             // nodes, links, faces
+  std::size_t m_nextLink = 0;       // to look at
+  unsigned long long m_linksTaken = 0;
+  double m_stiffness = 0;  // that the links were taken with
+  btScalar m_dt = 0;       // with which soft links were taken
+  bool m_isPredicted = false;
+  bool m_isSolved = false;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

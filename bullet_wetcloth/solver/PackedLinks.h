@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/solver/NodeSlots.h"
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Where the nodes are that links pull at: one number for each slot.
+struct LinkedNodes {
+  btScalar* position[3];        ///< [m]
+  const btScalar* inverseMass;  ///< [1/kg], 0 of what does not move
+};
+
+/// The links of a body in an order in which a processor works on several at once.
+///
+/// A link pulls its ends together as far as a spring of its stiffness k would in a step of h: with w the sum of the
+/// ends' inverse masses and C the stretch, by C / (w + a) with a = 1 / (k h^2) (XPBD; Macklin et al. 2016). One pass in
+/// a step lags behind the force by half a step, which stretches a cloth beyond its springs: w / 2 is taken off a, as
+/// far as it stays positive.
+class PackedLinks {
+ public:
+  /// For the links of this body, whose nodes stand in these slots. Lengths and compliances are those of no link yet.
+  void reset(const btSoftBody& body, const NodeSlots& slots);
+
+  /// How many links.
+  std::size_t size() const { return m_laneOfLink.size(); }
+  /// How many of them are in stretches of consecutive slots.
+  std::size_t inRuns() const { return m_inRuns; }
+  /// Of a link, in the order of btSoftBody::m_links: its length at rest [m], and 1 / k [m/N], 0: it does not stretch.
+  void set(std::size_t link, btScalar restLength, btScalar compliance) {
+    m_restLength[m_laneOfLink[link]] = restLength;
+    m_compliance[m_laneOfLink[link]] = compliance;
+  }
+  /// As last set.
+  btScalar restLength(std::size_t link) const { return m_restLength[m_laneOfLink[link]]; }
+  /// As last set.
+  btScalar compliance(std::size_t link) const { return m_compliance[m_laneOfLink[link]]; }
+
+  /// One pass over all links, in a step of h [s].
+  void solve(const LinkedNodes& nodes, btScalar h);
+
+ private:
+  // Lane k: slots a + k and b + k.
+  struct Run {
+    std::size_t a;
+    std::size_t b;
+    std::size_t lanes;
+    std::size_t firstLane;
+  };
+  // Lane k: slots a[k] and b[k], of which no two are the same.
+  struct Batch {
+    int a[NodeSlots::kLanes];
+    int b[NodeSlots::kLanes];
+  };
+  struct Corner {
+    btScalar at[4];  // position and inverse mass
+  };
+
+  std::vector<int> addRuns(const btSoftBody& body, const NodeSlots& slots);
+  void addBatches(const btSoftBody& body, const NodeSlots& slots, const std::vector<int>& links);
+  struct RunKernel;
+  struct BatchKernel;
+  void gather(const LinkedNodes& nodes);
+  void scatter(const LinkedNodes& nodes) const;
+
+  std::vector<Run> m_runs;
+  std::vector<Batch> m_batches;
+  std::vector<std::size_t> m_laneOfLink;
+  std::vector<btScalar> m_restLength;  // of each lane; those of batches come after those of runs
+  std::vector<btScalar> m_compliance;  // infinite where there is no link
+  std::size_t m_firstBatchLane = 0;
+  std::size_t m_inRuns = 0;
+  std::vector<Corner> m_corners;  // the nodes, one after the other, for batches
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+
+#include <BulletSoftBody/btSoftBody.h>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// What a body has that ClothSolver leaves to Bullet's own solver, in words for a message; empty: nothing.
+const char* whyNotTaken(const btSoftBody& body);
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
