@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/mesh/FaceTree.h"
 #include "bullet_wetcloth/mesh/MeshCheck.h"
+#include "bullet_wetcloth/solver/ClothSolver.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 #include "bullet_wetcloth/water/DryMass.h"
 
@@ -76,6 +77,7 @@ void WetCloth::step(const Step& step) {
   followRestLengths();
   if (isIdle) return;
   moveWater(step);
+  tellSolver();
   if (isAwake(step)) apply(Stage::forces, Stage::elasticity, step);
 }
 
@@ -93,6 +95,11 @@ void WetCloth::commitIfDue(bool isAtRest) {
   } else if (m_linkConstants.areStale()) {
     m_linkConstants.refresh(m_masses.inverseMasses());
   }
+}
+
+void WetCloth::tellSolver() {
+  ClothSolver* const solver = ClothSolver::of(m_body);
+  if (solver) solver->setLinkStiffness(m_body, m_linkConstants.stiffness(), m_linkConstants.stiffnessRevision());
 }
 
 // Masses and momentum, and then the links' constants, which follow from the masses.

@@ -219,6 +219,8 @@ class WETCLOTH_EXPORT WetCloth {
   void apply(Stage first, Stage last, const Step& step);
   void moveWater(const Step& step);
   void commitIfDue(bool isAtRest);
+  /// The stiffness of links, where ClothSolver steps the body.
+  void tellSolver();
   void commit();
   bool isAwake(const Step& step);
   /// Whether the body, which is in the world, is the one that was added. One that came back may be another that an

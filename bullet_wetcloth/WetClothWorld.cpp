@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/bullet/SubstepHook.h"
+#include "bullet_wetcloth/solver/ClothSolver.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 #include "bullet_wetcloth/state/StateEnvelope.h"
 #include "bullet_wetcloth/state/WorldState.h"
@@ -276,12 +277,19 @@ void WetClothWorld::restore(std::istream& stream) {
 
 void WetClothWorld::transferState(StateArchive& archive) {
   transferWorld(archive, static_cast<btDiscreteDynamicsWorld&>(m_world), softBodies());
+  transferSolver(archive);
   archive.value(m_time, m_stepStart);
   archive.expect(m_cloths.size(), "the number of cloths");
   for (const auto& cloth : m_cloths) {
     archive.expect(softBodies().findLinearSearch(&cloth->m_body), "a cloth's place among the world's soft bodies");
     cloth->transferState(archive);
   }
+}
+
+void WetClothWorld::transferSolver(StateArchive& archive) const {
+  ClothSolver* const solver = softBodies().size() > 0 ? ClothSolver::of(*softBodies()[0]) : nullptr;
+  archive.expect(solver != nullptr, "whether a ClothSolver steps the soft bodies");
+  if (solver) solver->transferState(archive, softBodies());
 }
 
 }  // namespace WETCLOTH_PRECISION

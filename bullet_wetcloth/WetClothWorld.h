@@ -128,6 +128,7 @@ class WETCLOTH_EXPORT WetClothWorld {
   WetClothWorld(btDynamicsWorld& world, Hook hook, const Layout& caller);
   void shareTick();
   void transferState(StateArchive& archive);
+  void transferSolver(StateArchive& archive) const;
   void requireAttached() const;
   void noticeDeletion(const WetCloth& cloth);
   bool noticePresence(WetCloth& cloth) const;

@@ -4,10 +4,12 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/solver/PackedCloth.h"
 #include "bullet_wetcloth/solver/WhyNotTaken.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -23,6 +25,34 @@ void requireValid(const ClothSolver::Parameters& parameters) {
   }
   if (!(parameters.stiffness > 0)) rejectValue("ClothSolver.stiffness", parameters.stiffness, "> 0");
 }
+
+// All that live. Of a body only the address of its solver is known, which may be of any class.
+class Registry {
+ public:
+  static void add(ClothSolver& solver) {
+    const std::lock_guard<std::mutex> lock(mutex());
+    solvers().push_back(&solver);
+  }
+  static void remove(ClothSolver& solver) {
+    const std::lock_guard<std::mutex> lock(mutex());
+    solvers().erase(std::find(solvers().begin(), solvers().end(), &solver));
+  }
+  static ClothSolver* find(const btSoftBodySolver* address) {
+    const std::lock_guard<std::mutex> lock(mutex());
+    const auto found = std::find(solvers().begin(), solvers().end(), address);
+    return found == solvers().end() ? nullptr : *found;
+  }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  static std::vector<ClothSolver*>& solvers() {
+    static std::vector<ClothSolver*> all;
+    return all;
+  }
+};
 
 }  // namespace
 
@@ -83,9 +113,14 @@ void ClothSolver::Impl::warnOfSmallSteps(Taken& taken, btScalar dt) const {
 
 ClothSolver::ClothSolver() : ClothSolver(Parameters()) {}
 
-ClothSolver::ClothSolver(const Parameters& parameters) : m_impl(std::make_unique<Impl>()) { setParameters(parameters); }
+ClothSolver::ClothSolver(const Parameters& parameters) : m_impl(std::make_unique<Impl>()) {
+  setParameters(parameters);
+  Registry::add(*this);
+}
 
-ClothSolver::~ClothSolver() = default;
+ClothSolver::~ClothSolver() { Registry::remove(*this); }
+
+ClothSolver* ClothSolver::of(const btSoftBody& body) { return Registry::find(body.getSoftBodySolver()); }
 
 const ClothSolver::Parameters& ClothSolver::parameters() const { return m_impl->parameters; }
 
@@ -108,6 +143,11 @@ int ClothSolver::smallStepsFor(const btSoftBody& body, double dt) const {
   return taken ? taken->cloth.smallStepsFor(static_cast<btScalar>(dt)) : 1;
 }
 
+void ClothSolver::setLinkStiffness(const btSoftBody& body, const std::vector<btScalar>& factors,
+                                   unsigned long long revision) {
+  if (Impl::Taken* const taken = m_impl->find(body)) taken->cloth.setLinkStiffness(factors, revision);
+}
+
 void ClothSolver::setSmallStepCallback(SmallStepCallback callback) { m_impl->callback = std::move(callback); }
 void ClothSolver::setLog(std::function<void(const std::string&)> log) { m_impl->logger = std::move(log); }
 
@@ -122,6 +162,23 @@ void ClothSolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool force
       return taken && &taken->cloth.body() == bodies[k];
     });
     m_impl->cloths.push_back(known != cloths.end() ? std::move(*known) : std::make_unique<Impl::Taken>(*bodies[k]));
+  }
+}
+
+void ClothSolver::transferState(StateArchive& archive, const btAlignedObjectArray<btSoftBody*>& bodies) {
+  for (int k = 0; k < bodies.size(); ++k) {
+    Impl::Taken* const taken = m_impl->find(*bodies[k]);
+    unsigned char isTaken = taken ? 1 : 0;
+    archive.local(isTaken);
+    if (isTaken == 0) continue;
+    if (taken) {
+      taken->cloth.transferState(archive);
+    } else if (archive.isChecking()) {
+      PackedCloth(*bodies[k]).transferState(archive);
+    } else {
+      m_impl->cloths.push_back(std::make_unique<Impl::Taken>(*bodies[k]));
+      m_impl->cloths.back()->cloth.transferState(archive);
+    }
   }
 }
 

@@ -10,9 +10,12 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
+
+class StateArchive;
 
 /// Steps cloths faster and stiffer than Bullet does, behind Bullet's own seam: the last argument of its world.
 ///
@@ -73,11 +76,22 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   /// was in the last step; 1 when it was not taken. A link that does not stretch needs none.
   int smallStepsFor(const btSoftBody& body, double dt) const;
 
+  /// Scales the stiffness of each link of a body that is taken, in the order of btSoftBody::m_links, without touching
+  /// its material: factors > 0, or none at all. `revision` tells this call's factors from another's: with that of the
+  /// last call nothing is done. WetCloth calls it in each step for what WetStiffness has set.
+  void setLinkStiffness(const btSoftBody& body, const std::vector<btScalar>& factors, unsigned long long revision);
+
   /// Sees the nodes' places after each small step; an empty one sees nothing.
   void setSmallStepCallback(SmallStepCallback callback);
   /// Takes messages, of a cloth that is not finite or whose links need more small steps. The default writes to
   /// std::clog; an empty function silences them.
   void setLog(std::function<void(const std::string&)> log);
+
+  /// The ClothSolver that steps the soft bodies of this one's world, or null.
+  static ClothSolver* of(const btSoftBody& body);
+  /// Names what goes on from step to step for these bodies, all of the world: see StateArchive. WetClothWorld::save()
+  /// and restore() call it.
+  void transferState(StateArchive& archive, const btAlignedObjectArray<btSoftBody*>& bodies);
 
   // What Bullet's world calls. An application does not.
 

@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/numerics/BestLanes.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -243,6 +244,11 @@ MovingNodes LocalNodes::moving() {
   }
   nodes.inverseMass = m_inverseMass.data();
   return nodes;
+}
+
+void LocalNodes::transferState(StateArchive& archive) {
+  archive.value(m_isNew, m_origin, m_badNode);
+  for (Lane& axis : m_position) archive.array(axis);
 }
 
 }  // namespace WETCLOTH_PRECISION

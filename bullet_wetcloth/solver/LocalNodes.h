@@ -13,6 +13,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
+
 /// The nodes of a body in arrays, each in its slot, with places relative to an origin near the body.
 ///
 /// In float32 a place 1 km from the world's origin is known to 0.06 mm, which is further than a node moves in a small
@@ -46,6 +48,9 @@ class LocalNodes {
     findPredictedIn(least, largest);
     for (const int slot : m_found) action(showPrediction(slot));
   }
+
+  /// Names what goes on from step to step: see StateArchive.
+  void transferState(StateArchive& archive);
 
   std::size_t slot(int node) const { return static_cast<std::size_t>(m_slots[static_cast<std::size_t>(node)]); }
   /// Those of all nodes.

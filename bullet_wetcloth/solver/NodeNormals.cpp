@@ -60,13 +60,11 @@ struct NodeNormals::Kernel {
 
   WETCLOTH_INLINE void addGathered(const Block& block) const {
     for (std::size_t k = 0; k < block.lanes && triangles.isTaken(block)[k] > 0; ++k) {
-      const auto [a, b, c] = triangles.corners(block, k);
-      const auto edge = [&](int to, int axis) { return nodes.position[axis][to] - nodes.position[axis][a]; };
-      const btVector3 ab(edge(b, 0), edge(b, 1), edge(b, 2));
-      const btVector3 ac(edge(c, 0), edge(c, 1), edge(c, 2));
-      const btVector3 n = ab.cross(ac);
+      const TriangleBlocks::Triangle corners = triangles.corners(block, k);
+      const btVector3 a = nodes.placeOf(toSize(corners[0]));
+      const btVector3 n = (nodes.placeOf(toSize(corners[1])) - a).cross(nodes.placeOf(toSize(corners[2])) - a);
       for (int axis = 0; axis < 3; ++axis) {
-        for (const int corner : {a, b, c}) normal[axis][corner] += n[axis];
+        for (const int corner : corners) normal[axis][corner] += n[axis];
       }
     }
   }
@@ -108,12 +106,8 @@ void NodeNormals::compute(const MovingNodes& nodes) {
 void NodeNormals::writeFaces(btSoftBody& body, const MovingNodes& nodes) const {
   btSoftBody::Face* face = m_faces.empty() ? nullptr : &body.m_faces[0];
   for (const TriangleBlocks::Triangle& corners : m_faces) {
-    btVector3 at[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int slot = corners[k];
-      at[k].setValue(nodes.position[0][slot], nodes.position[1][slot], nodes.position[2][slot]);
-    }
-    face->m_normal = (at[1] - at[0]).cross(at[2] - at[0]);
+    const btVector3 a = nodes.placeOf(toSize(corners[0]));
+    face->m_normal = (nodes.placeOf(toSize(corners[1])) - a).cross(nodes.placeOf(toSize(corners[2])) - a);
     face->m_normal.safeNormalize();
     ++face;
   }

@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/solver/WhyNotTaken.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <BulletSoftBody/btSoftBodyInternals.h>
 
@@ -66,11 +67,12 @@ void PackedCloth::takeMesh() {
   m_stiffness = 0;  // of no link: they are taken
 }
 
-// Of a link that Bullet's solver corrects by kLST of what is left in each of its passes: the compliance that lets it
+// Of a link that Bullet's solver corrects by a share of what is left in each of its passes: the compliance that lets it
 // hang as far.
 btScalar PackedCloth::complianceOf(const btSoftBody::Link& link, std::size_t index,
                                    const ClothSolver::Parameters& parameters) const {
-  const double hardness = static_cast<double>(link.m_material->m_kLST);
+  const double factor = index < m_stiffnessFactors.size() ? static_cast<double>(m_stiffnessFactors[index]) : 1;
+  const double hardness = static_cast<double>(link.m_material->m_kLST) * factor;
   if (std::isfinite(parameters.stiffness)) return static_cast<btScalar>(1 / (parameters.stiffness * hardness));
   if (hardness >= 1) return 0;
   const double left = std::pow(1 - hardness, m_body.m_cfg.piterations);
@@ -89,6 +91,13 @@ bool PackedCloth::linksSeemChanged(const ClothSolver::Parameters& parameters) {
     if (link.m_rl != m_links.restLength(k) || complianceOf(link, k, parameters) != m_links.compliance(k)) return true;
   }
   return false;
+}
+
+void PackedCloth::setLinkStiffness(const std::vector<btScalar>& factors, unsigned long long revision) {
+  if (revision == m_stiffnessRevision) return;
+  m_stiffnessRevision = revision;
+  m_stiffnessFactors = factors;
+  m_stiffness = 0;  // of no link: they are taken
 }
 
 void PackedCloth::takeLinks(const ClothSolver::Parameters& parameters) {
@@ -206,6 +215,17 @@ void PackedCloth::finish() {
   m_nodes.write(m_normals.lanes());
   m_normals.writeFaces(m_body, m_nodes.moving());
   m_isPredicted = m_isSolved = false;
+}
+
+// --- save and restore -----------------------------------------------------------------------------------------------
+
+void PackedCloth::transferState(StateArchive& archive) {
+  if (!archive.isSaving() && hasNewMesh()) takeMesh();
+  m_nodes.transferState(archive);
+  m_links.transferState(archive);
+  archive.array(m_weights);
+  archive.growingArray(m_stiffnessFactors);
+  archive.value(m_nextLink, m_stiffness, m_dt, m_stiffnessRevision);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -18,6 +18,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
+
 /// One body that ClothSolver has taken: the parts of its step, in their order.
 class PackedCloth {
  public:
@@ -32,8 +34,13 @@ class PackedCloth {
   /// As many small steps as its links need in a step of dt [s] to stretch no further than their stiffness.
   int smallStepsFor(btScalar dt) const;
 
+  /// Names what goes on from step to step: see StateArchive.
+  void transferState(StateArchive& archive);
+
   /// Before the step: the mesh, and the links as they are now.
   void follow(const ClothSolver::Parameters& parameters, btScalar dt);
+  /// Scales the stiffness of each link; empty: of none. The revision tells whether these are others than before.
+  void setLinkStiffness(const std::vector<btScalar>& factors, unsigned long long revision);
   /// Takes over the nodes, and predicts where they will be. False: the cloth rests in this step.
   bool predict(btScalar dt);
   /// Finds the contacts with a rigid body or a link of a multibody.
@@ -60,9 +67,11 @@ class PackedCloth {
   ContactProjection m_contacts;
   AnchorProjection m_anchors;
   std::vector<btScalar> m_weights;  // of each link: the sum of its ends' inverse masses when the mesh was taken
-  const void* m_mesh[2] = {};       // addresses of nodes and links
-  int m_counts[3] = {};             // nodes, links, faces
-  std::size_t m_nextLink = 0;       // to look at
+  std::vector<btScalar> m_stiffnessFactors;  // of each link, or none
+  unsigned long long m_stiffnessRevision = 0;
+  const void* m_mesh[2] = {};  // addresses of nodes and links
+  int m_counts[3] = {};        // nodes, links, faces
+  std::size_t m_nextLink = 0;  // to look at
   unsigned long long m_linksTaken = 0;
   double m_stiffness = 0;  // that the links were taken with
   btScalar m_dt = 0;       // with which soft links were taken

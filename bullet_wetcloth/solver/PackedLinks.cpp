@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/numerics/BestLanes.h"
 #include "bullet_wetcloth/solver/GridLink.h"
+#include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
 #include <array>
@@ -253,6 +254,11 @@ void PackedLinks::solve(const LinkedNodes& nodes, btScalar h) {
   gather(nodes);
   runOnBestLanes(BatchKernel{*this, perStepSquared});
   scatter(nodes);
+}
+
+void PackedLinks::transferState(StateArchive& archive) {
+  archive.array(m_restLength);
+  archive.array(m_compliance);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -12,6 +12,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
+
 /// Where the nodes are that links pull at: one number for each slot.
 struct LinkedNodes {
   btScalar* position[3];        ///< [m]
@@ -42,6 +44,9 @@ class PackedLinks {
   btScalar restLength(std::size_t link) const { return m_restLength[m_laneOfLink[link]]; }
   /// As last set.
   btScalar compliance(std::size_t link) const { return m_compliance[m_laneOfLink[link]]; }
+
+  /// Names what goes on from step to step: see StateArchive.
+  void transferState(StateArchive& archive);
 
   /// One pass over all links, in a step of h [s].
   void solve(const LinkedNodes& nodes, btScalar h);
