@@ -48,7 +48,7 @@ bool EffectList::apply(Stage first, Stage last, const Step& step) {
     if (isWell) ++next;
     allWell = allWell && isWell;
   }
-  m_cloth.packedNodes().release();
+  m_cloth.packedNodes().keep();
   return allWell;
 }
 

@@ -76,9 +76,12 @@ void WetCloth::step(const Step& step) {
   if (isIdle ? m_body.m_bUpdateRtCst : m_masses.seemSet()) takeOverMasses();
   followRestLengths();
   if (isIdle) return;
+  followSolver();
   moveWater(step);
   tellSolver();
   if (isAwake(step)) apply(Stage::forces, Stage::elasticity, step);
+  m_nodesAreBehind = packedNodes().areAhead();
+  if (m_nodesAreBehind && !m_world.isHooked()) releaseNodes();
 }
 
 void WetCloth::moveWater(const Step& step) {
@@ -97,6 +100,22 @@ void WetCloth::commitIfDue(bool isAtRest) {
   }
 }
 
+PackedNodes& WetCloth::packedNodes() {
+  ClothSolver* const solver = ClothSolver::of(m_body);
+  PackedNodes* const nodes = solver ? solver->packedNodes(m_body) : nullptr;
+  return nodes ? *nodes : m_packedNodes;
+}
+
+void WetCloth::releaseNodes() {
+  packedNodes().release();
+  m_nodesAreBehind = false;
+}
+
+void WetCloth::followSolver() {
+  releaseNodes();
+  if (packedNodes().order() != m_orderOfNodes) attachAgain();
+}
+
 void WetCloth::tellSolver() {
   ClothSolver* const solver = ClothSolver::of(m_body);
   if (solver) solver->setLinkStiffness(m_body, m_linkConstants.stiffness(), m_linkConstants.stiffnessRevision());
@@ -104,6 +123,7 @@ void WetCloth::tellSolver() {
 
 // Masses and momentum, and then the links' constants, which follow from the masses.
 void WetCloth::commit() {
+  releaseNodes();
   const bool massesChanged = m_masses.commit(m_water);
   if (massesChanged || m_linkConstants.areStale()) m_linkConstants.refresh(m_masses.inverseMasses());
 }
@@ -194,6 +214,7 @@ void WetCloth::adaptToBody() {
 
 // To a body whose mesh or shape at rest is another one.
 void WetCloth::attachAgain() {
+  m_orderOfNodes = packedNodes().order();
   m_restMesh.reset();
   m_restLengths.remember();
   if (!m_effects.attachAgain()) m_world.shareTick();
@@ -208,6 +229,7 @@ const RestMesh& WetCloth::restMesh() {
 
 void WetCloth::joinArrivals() {
   if (!m_water.movedSinceCommit()) return;
+  releaseNodes();
   for (std::size_t i = 0; i < m_water.size(); ++i) joinArrivals(i);
 }
 
@@ -278,6 +300,7 @@ double WetCloth::roughness(int node) const { return wetRoughness(m_fabric.dryRou
 // --- save and restore -----------------------------------------------------------------------------------------------
 
 void WetCloth::transferState(StateArchive& archive) {
+  if (archive.isRestoring()) followSolver();
   archive.expect(m_water.size(), "a cloth's number of nodes");
   archive.expect(m_world.isInWorld(m_body), "whether a cloth's body is in the world");
   archive.value(m_massAsleep, m_wasPresent, m_hasJustBegun);

@@ -171,7 +171,7 @@ class WETCLOTH_EXPORT WetCloth {
   const RestLengths& restLengths() const { return m_restLengths; }
   /// The nodes' places, velocities and inverse masses in arrays. An effect that asks for them says so in
   /// Effect::usesPackedNodes(), and calls fit() in attach().
-  PackedNodes& packedNodes() { return m_packedNodes; }
+  PackedNodes& packedNodes();
   /// The cloth's triangles at rest. Built when first asked for, and again after the body's nodes, links or faces
   /// changed in number, or the lengths of its links at rest, and with the first effect: ask in attach(), which is
   /// called then.
@@ -182,6 +182,7 @@ class WETCLOTH_EXPORT WetCloth {
   void push(btSoftBody::Node& node, const btVector3& deltaVelocity) {
     const btScalar size = deltaVelocity.x() + deltaVelocity.y() + deltaVelocity.z();
     if (node.m_im == 0 || !(size - size == 0)) return;
+    if (m_nodesAreBehind) releaseNodes();
     node.m_v += deltaVelocity;
     // The deformable world's implicit solve starts from the velocity at the end of the last step.
     if (m_deformable) node.m_vn += deltaVelocity;
@@ -219,8 +220,11 @@ class WETCLOTH_EXPORT WetCloth {
   void apply(Stage first, Stage last, const Step& step);
   void moveWater(const Step& step);
   void commitIfDue(bool isAtRest);
-  /// The stiffness of links, where ClothSolver steps the body.
+  /// Where ClothSolver steps the body: effects work on its arrays.
+  void followSolver();
+  /// The stiffness of links.
   void tellSolver();
+  void releaseNodes();
   void commit();
   bool isAwake(const Step& step);
   /// Whether the body, which is in the world, is the one that was added. One that came back may be another that an
@@ -252,7 +256,9 @@ class WETCLOTH_EXPORT WetCloth {
   BodyWatch m_watch;
   WaterPace m_pace;
   WaterClock m_waterClock;
-  double m_massAsleep = 0;  // when Bullet let the body sleep, 0 while it is awake [kg]
+  double m_massAsleep = 0;                // when Bullet let the body sleep, 0 while it is awake [kg]
+  unsigned long long m_orderOfNodes = 0;  // PackedNodes::order() that effects are attached to
+  bool m_nodesAreBehind = false;          // packed velocities wait for ClothSolver
   bool m_wasPresent = true;
   bool m_hasStepped = false;
   bool m_hasJustBegun = false;  // the body's first step is this one or was the last

@@ -16,6 +16,11 @@ void PackedNodes::fit() {
 
 void PackedNodes::read() {
   if (m_isRead) return;
+  readNodes();
+  m_isRead = m_isHeld;
+}
+
+void PackedNodes::readNodes() {
   const btSoftBody::Node* node = m_size > 0 ? &m_body.m_nodes[0] : nullptr;
   for (std::size_t i = 0; i < m_size; ++i, ++node) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -24,28 +29,28 @@ void PackedNodes::read() {
     }
     inverseMass[i] = node->m_im;
   }
-  m_isRead = m_isHeld;
 }
 
 void PackedNodes::velocitiesChanged() {
   m_hasChanged = true;
-  if (!m_isHeld) write();
+  if (m_isHeld) return;
+  writeVelocities();
+  m_hasChanged = false;
 }
 
 void PackedNodes::release() {
-  if (m_hasChanged) write();
-  m_isHeld = m_isRead = false;
+  if (m_hasChanged) writeVelocities();
+  m_isHeld = m_isRead = m_hasChanged = false;
 }
 
 // The deformable world's implicit solve starts from the velocity at the end of the last step.
-void PackedNodes::write() {
+void PackedNodes::writeVelocities() {
   btSoftBody::Node* node = m_size > 0 ? &m_body.m_nodes[0] : nullptr;
   for (std::size_t i = 0; i < m_size; ++i, ++node) {
     const btVector3 changed(velocity[0][i], velocity[1][i], velocity[2][i]);
     if (m_deformable) node->m_vn += changed - node->m_v;
     node->m_v = changed;
   }
-  m_hasChanged = false;
 }
 
 }  // namespace WETCLOTH_PRECISION

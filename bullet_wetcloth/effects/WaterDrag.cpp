@@ -59,6 +59,11 @@ bool differs(const WaterSurface& now, const WaterSurface& before, const btSoftBo
          std::fabs(now.density - before.density) > 0.01 * before.density;
 }
 
+btVector3 placeOf(const PackedNodes& nodes, std::size_t node) {
+  const std::size_t slot = nodes.slot(node);
+  return nodes.origin() + btVector3(nodes.position[0][slot], nodes.position[1][slot], nodes.position[2][slot]);
+}
+
 }  // namespace
 
 double displacedVolume(double dryMass, double fibreDensity, double held) {
@@ -117,8 +122,7 @@ bool WaterDrag::findImmersed(const PackedNodes& nodes) {
   const WaterSurface& surface = *m_surface;
   bool isAny = false;
   for (std::size_t i = 0; i < m_isImmersed.size(); ++i) {
-    const btVector3 x(nodes.position[0][i], nodes.position[1][i], nodes.position[2][i]);
-    m_isImmersed[i] = surface.depth(x) > 0;
+    m_isImmersed[i] = surface.depth(placeOf(nodes, i)) > 0;
     isAny = isAny || m_isImmersed[i];
   }
   m_nodesVisited += static_cast<long long>(m_nodes.size());
@@ -134,8 +138,9 @@ void WaterDrag::look(const WetCloth& cloth, const PackedNodes& nodes, const Step
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
     if (!m_isImmersed[i]) continue;
     NodeState& state = m_nodes[i];
-    const btScalar inverseMass = nodes.inverseMass[i];
-    const btVector3 velocity(nodes.velocity[0][i], nodes.velocity[1][i], nodes.velocity[2][i]);
+    const std::size_t slot = nodes.slot(i);
+    const btScalar inverseMass = nodes.inverseMass[slot];
+    const btVector3 velocity(nodes.velocity[0][slot], nodes.velocity[1][slot], nodes.velocity[2][slot]);
     const double volume = displacedVolume(water.dryMass(i), m_parameters.fibreDensity, water.held(i));
     state.lift = step.gravity * static_cast<btScalar>(-m_surface->density * volume);
     const btVector3 fall = (step.gravity + state.lift * inverseMass) * dt;
@@ -151,10 +156,7 @@ void WaterDrag::accumulate(const PackedNodes& nodes, const Step& step) {
                                       static_cast<btScalar>(m_surface->density * m_parameters.skinFriction / 2),
                                       static_cast<btScalar>(step.dt)};
   const auto isImmersed = [this](int node) { return m_isImmersed[static_cast<std::size_t>(node)]; };
-  const auto position = [&](int node) {
-    const std::size_t i = static_cast<std::size_t>(node);
-    return btVector3(nodes.position[0][i], nodes.position[1][i], nodes.position[2][i]);
-  };
+  const auto position = [&](int node) { return placeOf(nodes, static_cast<std::size_t>(node)); };
   for (const Triangle& corners : m_triangles) {
     const auto [a, b, c] = corners;
     if (!(isImmersed(a) | isImmersed(b) | isImmersed(c))) continue;
@@ -198,13 +200,14 @@ void WaterDrag::push(PackedNodes& nodes, const Step& step) {
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
     if (!m_isImmersed[i]) continue;
     const NodeState& state = m_nodes[i];
-    const btScalar inverseMass = nodes.inverseMass[i];
+    const std::size_t slot = nodes.slot(i);
+    const btScalar inverseMass = nodes.inverseMass[slot];
     const btVector3 force = state.lift + state.resistance / (1 + dt * state.drag * inverseMass);
     const btScalar size = force.x() + force.y() + force.z();
     if (!(size - size == 0)) continue;
     for (int axis = 0; axis < 3; ++axis) {
       total[axis] += static_cast<double>(force[axis]);
-      nodes.velocity[axis][i] += force[axis] * (dt * inverseMass);
+      nodes.velocity[axis][slot] += force[axis] * (dt * inverseMass);
     }
   }
   nodes.velocitiesChanged();

@@ -128,8 +128,8 @@ void WetStiffness::weigh(const WetCloth& cloth, const PackedNodes& nodes) {
   const Water& water = cloth.water();
   const bool massesAreStale = water.movedSinceCommit();
   for (std::size_t i = 0; i < m_inverseMass.size(); ++i) {
-    const bool isStale = massesAreStale && nodes.inverseMass[i] > 0;
-    m_inverseMass[i] = isStale ? static_cast<btScalar>(1 / water.totalMass(i)) : nodes.inverseMass[i];
+    const btScalar known = nodes.inverseMass[nodes.slot(i)];
+    m_inverseMass[i] = massesAreStale && known > 0 ? static_cast<btScalar>(1 / water.totalMass(i)) : known;
   }
 }
 
@@ -139,22 +139,23 @@ void WetStiffness::damp(WetCloth& cloth) {
   PackedNodes& nodes = cloth.packedNodes();
   nodes.read();
   weigh(cloth, nodes);
-  const auto between = [](const PackedNodes::Lane(&lanes)[3], const LinkSaturation::Ends& ends) {
-    return btVector3(lanes[0][ends.b] - lanes[0][ends.a], lanes[1][ends.b] - lanes[1][ends.a],
-                     lanes[2][ends.b] - lanes[2][ends.a]);
+  const auto between = [](const PackedNodes::Lane(&lanes)[3], std::size_t a, std::size_t b) {
+    return btVector3(lanes[0][b] - lanes[0][a], lanes[1][b] - lanes[1][a], lanes[2][b] - lanes[2][a]);
   };
   for (std::size_t k = 0; k < m_shares.size(); ++k) {
     if (m_shares[k] == 0) continue;
     const LinkSaturation::Ends& ends = m_saturation.ends(k);
     const btScalar massA = m_inverseMass[ends.a];
     const btScalar massB = m_inverseMass[ends.b];
+    const std::size_t a = nodes.slot(ends.a);
+    const std::size_t b = nodes.slot(ends.b);
     const btVector3 impulse =
-        dampingImpulse(between(nodes.position, ends), between(nodes.velocity, ends), massA + massB, m_shares[k]);
+        dampingImpulse(between(nodes.position, a, b), between(nodes.velocity, a, b), massA + massB, m_shares[k]);
     const btScalar size = impulse.x() + impulse.y() + impulse.z();
     if (!(size - size == 0)) continue;
     for (int axis = 0; axis < 3; ++axis) {
-      nodes.velocity[axis][ends.a] -= impulse[axis] * massA;
-      nodes.velocity[axis][ends.b] += impulse[axis] * massB;
+      nodes.velocity[axis][a] -= impulse[axis] * massA;
+      nodes.velocity[axis][b] += impulse[axis] * massB;
     }
   }
   nodes.velocitiesChanged();

@@ -37,12 +37,21 @@ auto lawOf(const Wind::Parameters& p) {
                          p.integration);
 }
 
-btVector3 vectorOf(const PackedNodes::Lane (&lanes)[3], int node) {
-  const std::size_t i = static_cast<std::size_t>(node);
+btVector3 vectorOf(const PackedNodes::Lane (&lanes)[3], int slot) {
+  const std::size_t i = static_cast<std::size_t>(slot);
   return btVector3(lanes[0][i], lanes[1][i], lanes[2][i]);
 }
-void addTo(PackedNodes::Lane (&lanes)[3], int node, const btVector3& v) {
-  for (int axis = 0; axis < 3; ++axis) lanes[axis][static_cast<std::size_t>(node)] += v[axis];
+void addTo(PackedNodes::Lane (&lanes)[3], int slot, const btVector3& v) {
+  for (int axis = 0; axis < 3; ++axis) lanes[axis][static_cast<std::size_t>(slot)] += v[axis];
+}
+
+// With the nodes' slots in place of their numbers.
+std::vector<TriangleBlocks::Triangle> trianglesOf(const btSoftBody& body, const PackedNodes& nodes) {
+  std::vector<TriangleBlocks::Triangle> triangles = layersOf(body);
+  for (TriangleBlocks::Triangle& corners : triangles) {
+    for (int& corner : corners) corner = static_cast<int>(nodes.slot(static_cast<std::size_t>(corner)));
+  }
+  return triangles;
 }
 
 constexpr btScalar kThird = btScalar(1) / 3;
@@ -92,23 +101,32 @@ void Wind::setParameters(Parameters parameters) {
 void Wind::attach(WetCloth& cloth) {
   const btSoftBody& body = cloth.body();
   requireFaces("Wind", body);
-  cloth.packedNodes().fit();
-  const std::size_t padded = cloth.packedNodes().size() + PackedNodes::kPadding;
+  PackedNodes& nodes = cloth.packedNodes();
+  nodes.fit();
+  const std::size_t padded = nodes.size() + PackedNodes::kPadding;
   for (int axis = 0; axis < 3; ++axis) {
     m_relative[axis].assign(padded, 0);
     m_force[axis].assign(padded, 0);
   }
   m_specificArea.assign(padded, 0);
   m_drag.assign(padded, 0);
-  m_triangles.reset(layersOf(body));
+  m_triangles.reset(trianglesOf(body, nodes));
   const std::vector<double> areas = nodeAreas(body);
   m_nodeAreas.assign(areas.begin(), areas.end());
+  m_areaInSlot.assign(padded, 0);
+  m_areasAreStale = true;
+}
+
+void Wind::spreadAreas(const PackedNodes& nodes) {
+  for (std::size_t i = 0; i < m_nodeAreas.size(); ++i) m_areaInSlot[nodes.slot(i)] = m_nodeAreas[i];
+  m_areasAreStale = false;
 }
 
 void Wind::apply(WetCloth& cloth, const Step& step) {
   m_windAtCentre = windAtCentre(cloth, step);
   PackedNodes& nodes = cloth.packedNodes();
   nodes.read();
+  if (m_areasAreStale) spreadAreas(nodes);
   look(nodes, step);
   if (m_parameters.law == Law::paper) {
     accumulatePaper(nodes, step);
@@ -161,7 +179,7 @@ void Wind::look(const PackedNodes& nodes, const Step& step) {
     btScalar* const relative = m_relative[axis].data();
     for (std::size_t i = 0; i < count; ++i) relative[i] = (inverseMass[i] > 0 ? falling : air) - velocity[i];
   }
-  for (std::size_t i = 0; i < count; ++i) m_specificArea[i] = m_nodeAreas[i] * inverseMass[i];
+  for (std::size_t i = 0; i < count; ++i) m_specificArea[i] = m_areaInSlot[i] * inverseMass[i];
   for (Lane& axis : m_force) std::fill(axis.begin(), axis.end(), btScalar(0));
   std::fill(m_drag.begin(), m_drag.end(), btScalar(0));
 }
@@ -196,8 +214,8 @@ void Wind::accumulate(const PackedNodes& nodes, const Step& step) {
     for (std::size_t lane = 0; field.isFunction() && lane < block.lanes; ++lane) {
       if (!(m_triangles.isTaken(block)[lane] > 0)) continue;
       const auto [a, b, c] = m_triangles.corners(block, lane);
-      const auto x = [&](int node) { return vectorOf(nodes.position, node); };
-      const btVector3 wind = field.at((x(a) + x(b) + x(c)) * kThird, step.time);
+      const auto x = [&](int slot) { return vectorOf(nodes.position, slot); };
+      const btVector3 wind = field.at((x(a) + x(b) + x(c)) * kThird + nodes.origin(), step.time);
       for (int axis = 0; axis < 3; ++axis) flow[axis][lane] = wind[axis];
     }
     TriangleDrag::add(m_triangles, block, resistance, field.isFunction() ? &flow : nullptr, lanes);
@@ -216,7 +234,8 @@ void Wind::accumulateFriction(const PackedNodes& nodes, const Step& step) {
       specificArea += m_specificArea[static_cast<std::size_t>(corners[k])] * kThird;
     }
     const FlatTriangle triangle = flatTriangle(x[0], x[1], x[2]);
-    const btVector3 wind = field.isFunction() ? field.at((x[0] + x[1] + x[2]) * kThird, step.time) : btVector3(0, 0, 0);
+    const btVector3 centre = (x[0] + x[1] + x[2]) * kThird + nodes.origin();
+    const btVector3 wind = field.isFunction() ? field.at(centre, step.time) : btVector3(0, 0, 0);
     btVector3 along[3];
     for (std::size_t k = 0; k < 3; ++k) {
       const btVector3 relative = vectorOf(m_relative, corners[k]) + wind;
@@ -237,7 +256,7 @@ void Wind::accumulatePaper(const PackedNodes& nodes, const Step& step) {
   forEachTriangle([&](const TriangleBlocks::Triangle& corners) {
     btVector3 x[3];
     for (std::size_t k = 0; k < 3; ++k) x[k] = vectorOf(nodes.position, corners[k]);
-    const btVector3 wind = field.at((x[0] + x[1] + x[2]) * kThird, step.time);
+    const btVector3 wind = field.at((x[0] + x[1] + x[2]) * kThird + nodes.origin(), step.time);
     const btVector3 force = paperWindForce(x[0], x[1], x[2], wind) * unit;
     for (const int corner : corners) addTo(m_force, corner, force);
   });
@@ -253,6 +272,7 @@ void Wind::push(PackedNodes& nodes, const Step& step) {
 void Wind::transferState(StateArchive& archive) {
   archive.array(m_nodeAreas);
   archive.value(m_totalForce, m_windAtCentre);
+  if (archive.isRestoring()) m_areasAreStale = true;
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -97,6 +97,7 @@ class WETCLOTH_EXPORT Wind : public Effect {
 
   btVector3 windAtCentre(const WetCloth& cloth, const Step& step) const;
   TriangleDrag::Nodes lanesOf(const PackedNodes& nodes);
+  void spreadAreas(const PackedNodes& nodes);
   void look(const PackedNodes& nodes, const Step& step);
   void accumulate(const PackedNodes& nodes, const Step& step);
   void accumulateFriction(const PackedNodes& nodes, const Step& step);
@@ -108,7 +109,9 @@ class WETCLOTH_EXPORT Wind : public Effect {
   Parameters m_parameters;
   TriangleBlocks m_triangles;
   std::vector<btScalar> m_nodeAreas;  // when the effect was added, or the body last cut [m^2]
-  // For each node, and as many more as PackedNodes::kPadding:
+  bool m_areasAreStale = true;        // those of the slots
+  // For each slot, and as many more as PackedNodes::kPadding:
+  Lane m_areaInSlot;    // [m^2]
   Lane m_relative[3];   // velocity of the air relative to it [m/s]
   Lane m_specificArea;  // area over mass [m^2/kg], 0 when pinned
   Lane m_force[3];      // [N]

@@ -17,7 +17,7 @@ void AnchorProjection::prepare(btSoftBody& body, const LocalNodes& nodes) {
     btRigidBody& rigid = *listed.m_body;
     const btTransform& pose = rigid.getWorldTransform();
     Anchor anchor = {};
-    anchor.slot = nodes.slot(nodeIndex(body, listed.m_node));
+    anchor.slot = nodes.slot(toSize(nodeIndex(body, listed.m_node)));
     anchor.rigid = &rigid;
     anchor.arm = pose.getBasis() * listed.m_local;
     const btVector3 velocity = rigid.getVelocityInLocalPoint(anchor.arm);

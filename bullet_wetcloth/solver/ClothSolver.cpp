@@ -148,6 +148,11 @@ void ClothSolver::setLinkStiffness(const btSoftBody& body, const std::vector<btS
   if (Impl::Taken* const taken = m_impl->find(body)) taken->cloth.setLinkStiffness(factors, revision);
 }
 
+PackedNodes* ClothSolver::packedNodes(const btSoftBody& body) {
+  Impl::Taken* const taken = m_impl->find(body);
+  return taken && !taken->cloth.hasNewMesh() ? &taken->cloth.nodes() : nullptr;
+}
+
 void ClothSolver::setSmallStepCallback(SmallStepCallback callback) { m_impl->callback = std::move(callback); }
 void ClothSolver::setLog(std::function<void(const std::string&)> log) { m_impl->logger = std::move(log); }
 
@@ -162,6 +167,7 @@ void ClothSolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool force
       return taken && &taken->cloth.body() == bodies[k];
     });
     m_impl->cloths.push_back(known != cloths.end() ? std::move(*known) : std::make_unique<Impl::Taken>(*bodies[k]));
+    m_impl->cloths.back()->cloth.followMesh();
   }
 }
 

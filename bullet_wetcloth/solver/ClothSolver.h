@@ -15,6 +15,7 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class PackedNodes;
 class StateArchive;
 
 /// Steps cloths faster and stiffer than Bullet does, behind Bullet's own seam: the last argument of its world.
@@ -87,6 +88,8 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   /// std::clog; an empty function silences them.
   void setLog(std::function<void(const std::string&)> log);
 
+  /// The nodes' arrays of a body that is taken, for WetCloth; null of one that is not, or was cut since the last step.
+  PackedNodes* packedNodes(const btSoftBody& body);
   /// The ClothSolver that steps the soft bodies of this one's world, or null.
   static ClothSolver* of(const btSoftBody& body);
   /// Names what goes on from step to step for these bodies, all of the world: see StateArchive. WetClothWorld::save()

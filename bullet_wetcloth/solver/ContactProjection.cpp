@@ -27,7 +27,7 @@ void ContactProjection::prepare(const btSoftBody& body, const LocalNodes& nodes,
     const int node = findIndex(body.m_nodes, static_cast<const btSoftBody::Node*>(listed.m_node));
     if (node < 0 || !listed.m_cti.m_colObj->hasContactResponse()) continue;
     Contact contact = {};
-    contact.slot = nodes.slot(node);
+    contact.slot = nodes.slot(toSize(node));
     contact.normal = listed.m_cti.m_normal;
     contact.offset = listed.m_cti.m_offset + contact.normal.dot(nodes.origin());
     contact.moves = listed.m_c0.scaled(btVector3(1, 1, 1) * listed.m_c2);

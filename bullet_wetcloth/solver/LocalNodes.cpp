@@ -6,6 +6,7 @@
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -35,7 +36,7 @@ struct FiniteCheck {
 };
 
 struct Bounds {
-  const btScalar* position;
+  const btScalar* places;
   const btScalar* isNode;
   std::size_t count;
   btScalar& least;
@@ -47,7 +48,7 @@ struct Bounds {
     Lanes low = far;
     Lanes high = -far;
     for (std::size_t i = 0; i < count; i += kLaneCount<Lanes>) {
-      const Lanes x = load<Lanes>(position + i);
+      const Lanes x = load<Lanes>(places + i);
       const auto isThere = load<Lanes>(isNode + i) > everywhere<Lanes>(0);
       low = choose(isThere & (x < low), x, low);
       high = choose(isThere & (x > high), x, high);
@@ -91,20 +92,25 @@ struct InBox {
 
 }  // namespace
 
+// Each order of slots has a number of its own, whatever body it belongs to.
 void LocalNodes::reset(const NodeSlots& slots) {
+  static std::atomic<unsigned long long> lastOrder{0};
+  release();
+  m_isHeld = true;
+  if (m_order == 0 || m_slots != slots.ofNode || m_size != slots.count) m_order = ++lastOrder;
   m_slots = slots.ofNode;
-  m_count = slots.count;
-  m_nodeOfSlot.assign(m_count, -1);
+  m_size = slots.count;
+  m_nodeOfSlot.assign(m_size, -1);
   for (std::size_t k = 0; k < m_slots.size(); ++k) m_nodeOfSlot[toSize(m_slots[k])] = static_cast<int>(k);
   for (int axis = 0; axis < 3; ++axis) {
-    for (Lane* const lane : {&m_position[axis], &m_predicted[axis], &m_velocity[axis], &m_force[axis]}) {
-      lane->assign(m_count + kPadding, 0);
+    for (Lane* const lane : {&position[axis], &m_predicted[axis], &velocity[axis], &m_force[axis]}) {
+      lane->assign(m_size + kPadding, 0);
     }
   }
-  m_inverseMass.assign(m_count + kPadding, 0);
-  m_isNode.assign(m_count + kPadding, 0);
+  inverseMass.assign(m_size + kPadding, 0);
+  m_isNode.assign(m_size + kPadding, 0);
   for (const int slot : m_slots) m_isNode[toSize(slot)] = 1;
-  m_found.reserve(m_count);
+  m_found.reserve(m_size);
   m_shown.reserve(m_slots.size());
   m_shown.clear();
   m_isNew = true;
@@ -125,11 +131,11 @@ void LocalNodes::centre() {
   }
   m_origin += shift;
   for (int axis = 0; axis < 3; ++axis) {
-    for (const int slot : m_slots) m_position[axis][toSize(slot)] -= shift[axis];
+    for (const int slot : m_slots) position[axis][toSize(slot)] -= shift[axis];
   }
 }
 
-bool LocalNodes::read() {
+void LocalNodes::readNodes() {
   centre();
   const btSoftBody::Node* node = m_slots.empty() ? nullptr : &m_body.m_nodes[0];
   btScalar anyForce = 0;
@@ -137,18 +143,31 @@ bool LocalNodes::read() {
     const std::size_t slot = toSize(slotOfNode);
     for (int axis = 0; axis < 3; ++axis) {
       const btScalar place = node->m_x[axis];
-      if (m_isNew || place != m_origin[axis] + m_position[axis][slot]) {
-        m_position[axis][slot] = place - m_origin[axis];
+      if (m_isNew || place != m_origin[axis] + position[axis][slot]) {
+        position[axis][slot] = place - m_origin[axis];
       }
-      m_velocity[axis][slot] = node->m_v[axis];
+      velocity[axis][slot] = node->m_v[axis];
       m_force[axis][slot] = node->m_f[axis];
       anyForce += std::fabs(node->m_f[axis]);
     }
-    m_inverseMass[slot] = node->m_im;
+    inverseMass[slot] = node->m_im;
     ++node;
   }
   m_hasForces = anyForce != 0;
   m_isNew = false;
+}
+
+void LocalNodes::writeVelocities() {
+  for (std::size_t k = 0; k < m_slots.size(); ++k) {
+    const std::size_t s = toSize(m_slots[k]);
+    m_body.m_nodes[static_cast<int>(k)].m_v.setValue(velocity[0][s], velocity[1][s], velocity[2][s]);
+  }
+}
+
+bool LocalNodes::take() {
+  m_isHeld = true;
+  read();
+  m_isRead = m_hasChanged = false;
   m_badNode = -1;
   if (isFinite()) return true;
   findBadNode();
@@ -157,23 +176,23 @@ bool LocalNodes::read() {
 }
 
 bool LocalNodes::isFinite() const {
-  const btScalar* arrays[10] = {m_inverseMass.data()};
+  const btScalar* arrays[10] = {inverseMass.data()};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    arrays[1 + axis] = m_position[axis].data();
-    arrays[4 + axis] = m_velocity[axis].data();
+    arrays[1 + axis] = position[axis].data();
+    arrays[4 + axis] = velocity[axis].data();
     arrays[7 + axis] = m_force[axis].data();
   }
   btScalar sum = 0;
-  runOnBestLanes(FiniteCheck{arrays, std::size_t(m_hasForces ? 10 : 7), m_count, sum});
+  runOnBestLanes(FiniteCheck{arrays, std::size_t(m_hasForces ? 10 : 7), m_size, sum});
   return sum == 0;
 }
 
 void LocalNodes::findBadNode() {
   for (std::size_t k = 0; k < m_slots.size() && m_badNode < 0; ++k) {
     const std::size_t slot = toSize(m_slots[k]);
-    btScalar sum = m_inverseMass[slot];
+    btScalar sum = inverseMass[slot];
     for (int axis = 0; axis < 3; ++axis) {
-      sum += m_position[axis][slot] * 0 + m_velocity[axis][slot] * 0 + m_force[axis][slot] * 0;
+      sum += position[axis][slot] * 0 + velocity[axis][slot] * 0 + m_force[axis][slot] * 0;
     }
     if (!(sum * 0 == 0)) m_badNode = static_cast<int>(k);
   }
@@ -185,7 +204,7 @@ void LocalNodes::predict(btScalar dt, const btVector3& gravity, btScalar largest
 
 void LocalNodes::predictedBounds(btVector3& least, btVector3& largest) const {
   for (int axis = 0; axis < 3; ++axis) {
-    runOnBestLanes(Bounds{m_predicted[axis].data(), m_isNode.data(), m_count, least[axis], largest[axis]});
+    runOnBestLanes(Bounds{m_predicted[axis].data(), m_isNode.data(), m_size, least[axis], largest[axis]});
   }
   least += m_origin;
   largest += m_origin;
@@ -193,17 +212,17 @@ void LocalNodes::predictedBounds(btVector3& least, btVector3& largest) const {
 
 void LocalNodes::findPredictedIn(const btVector3& least, const btVector3& largest) {
   m_found.clear();
-  const btScalar* const position[3] = {m_predicted[0].data(), m_predicted[1].data(), m_predicted[2].data()};
+  const btScalar* const predicted[3] = {m_predicted[0].data(), m_predicted[1].data(), m_predicted[2].data()};
   const btVector3 low = least - m_origin;
   const btVector3 high = largest - m_origin;
-  runOnBestLanes(InBox{position, m_isNode.data(), m_count, low, high, m_found});
+  runOnBestLanes(InBox{predicted, m_isNode.data(), m_size, low, high, m_found});
 }
 
 btSoftBody::Node& LocalNodes::showPrediction(int slot) {
   const std::size_t s = toSize(slot);
   const int index = m_nodeOfSlot[s];
   btSoftBody::Node& node = m_body.m_nodes[index];
-  node.m_q = position(s) + m_origin;
+  node.m_q = node.m_x;
   node.m_x = btVector3(m_predicted[0][s], m_predicted[1][s], m_predicted[2][s]) + m_origin;
   m_shown.push_back(index);
   return node;
@@ -222,11 +241,11 @@ void LocalNodes::write(const Lane (&normals)[3]) {
     const std::size_t slot = toSize(slotOfNode);
     node->m_q = node->m_x;
     const bool rests =
-        m_inverseMass[slot] == 0 && m_velocity[0][slot] == 0 && m_velocity[1][slot] == 0 && m_velocity[2][slot] == 0;
+        inverseMass[slot] == 0 && velocity[0][slot] == 0 && velocity[1][slot] == 0 && velocity[2][slot] == 0;
     if (!rests)
-      node->m_x.setValue(m_origin.x() + m_position[0][slot], m_origin.y() + m_position[1][slot],
-                         m_origin.z() + m_position[2][slot]);
-    node->m_v.setValue(m_velocity[0][slot], m_velocity[1][slot], m_velocity[2][slot]);
+      node->m_x.setValue(m_origin.x() + position[0][slot], m_origin.y() + position[1][slot],
+                         m_origin.z() + position[2][slot]);
+    node->m_v.setValue(velocity[0][slot], velocity[1][slot], velocity[2][slot]);
     node->m_f.setZero();
     node->m_n.setValue(normals[0][slot], normals[1][slot], normals[2][slot]);
     ++node;
@@ -235,20 +254,20 @@ void LocalNodes::write(const Lane (&normals)[3]) {
 
 MovingNodes LocalNodes::moving() {
   MovingNodes nodes = {};
-  nodes.count = m_count;
+  nodes.count = m_size;
   for (int axis = 0; axis < 3; ++axis) {
-    nodes.position[axis] = m_position[axis].data();
+    nodes.position[axis] = position[axis].data();
     nodes.predicted[axis] = m_predicted[axis].data();
-    nodes.velocity[axis] = m_velocity[axis].data();
+    nodes.velocity[axis] = velocity[axis].data();
     nodes.force[axis] = m_hasForces ? m_force[axis].data() : nullptr;
   }
-  nodes.inverseMass = m_inverseMass.data();
+  nodes.inverseMass = inverseMass.data();
   return nodes;
 }
 
 void LocalNodes::transferState(StateArchive& archive) {
   archive.value(m_isNew, m_origin, m_badNode);
-  for (Lane& axis : m_position) archive.array(axis);
+  for (Lane& axis : position) archive.array(axis);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/bullet/PackedNodes.h"
 #include "bullet_wetcloth/solver/NodeSlots.h"
 #include "bullet_wetcloth/solver/SmallStep.h"
 
@@ -20,19 +21,20 @@ class StateArchive;
 /// In float32 a place 1 km from the world's origin is known to 0.06 mm, which is further than a node moves in a small
 /// step: a cloth would stand still there. So places are kept relative, from step to step, and a node's own place is
 /// only taken where somebody else has changed it.
-class LocalNodes {
+///
+/// Effects read and change the same arrays before the step.
+class LocalNodes : public PackedNodes {
  public:
-  /// Arrays are longer than there are slots by this, so that loops may work in blocks of this size.
-  static constexpr std::size_t kPadding = 64;
-  using Lane = std::vector<btScalar>;
-
   /// For the nodes of this body, which must outlive it.
-  explicit LocalNodes(btSoftBody& body) : m_body(body) {}
+  explicit LocalNodes(btSoftBody& body) : PackedNodes(body, false) {}
 
   /// Makes room for the nodes in these slots, and forgets what was kept of them.
   void reset(const NodeSlots& slots);
-  /// Takes over what the body's nodes say now. False when something of a node is not finite; badNode() is its number.
-  bool read();
+  void fit() override {}
+  void keep() override {}
+  /// Takes over what the body's nodes say now, or what effects have made of it in this step. False when something of a
+  /// node is not finite; badNode() is its number.
+  bool take();
   int badNode() const { return m_badNode; }
   /// Writes into the body's nodes what a step has made of them; places from before the step become m_q.
   void write(const Lane (&normals)[3]);
@@ -52,16 +54,13 @@ class LocalNodes {
   /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
 
-  std::size_t slot(int node) const { return static_cast<std::size_t>(m_slots[static_cast<std::size_t>(node)]); }
   /// Those of all nodes.
   const int* slots() const { return m_slots.data(); }
-  /// Where the arrays' places are relative to [m].
-  const btVector3& origin() const { return m_origin; }
-  btVector3 position(std::size_t slot) const {
-    return btVector3(m_position[0][slot], m_position[1][slot], m_position[2][slot]);
-  }
-
   MovingNodes moving();
+
+ protected:
+  void readNodes() override;
+  void writeVelocities() override;
 
  private:
   void centre();
@@ -71,16 +70,9 @@ class LocalNodes {
   bool isFinite() const;
   void findBadNode();
 
-  btSoftBody& m_body;
-  std::vector<int> m_slots;
   std::vector<int> m_nodeOfSlot;
-  std::size_t m_count = 0;
-  btVector3 m_origin = btVector3(0, 0, 0);
-  Lane m_position[3];
   Lane m_predicted[3];
-  Lane m_velocity[3];
   Lane m_force[3];
-  Lane m_inverseMass;
   Lane m_isNode;             // 1 where there is one, else 0
   std::vector<int> m_found;  // slots, by the last search
   std::vector<int> m_shown;  // nodes whose predictions the body shows

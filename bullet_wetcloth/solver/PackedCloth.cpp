@@ -41,9 +41,14 @@ void PackedCloth::follow(const ClothSolver::Parameters& parameters, btScalar dt)
     m_body.updateConstants();
     m_body.m_fdbvt.clear();
   }
-  if (restLengthsAreReset || hasNewMesh()) takeMesh();
+  if (restLengthsAreReset) takeMesh();
+  followMesh();
   m_dt = dt * m_body.m_cfg.timescale;
   if (linksSeemChanged(parameters)) takeLinks(parameters);
+}
+
+void PackedCloth::followMesh() {
+  if (hasNewMesh()) takeMesh();
 }
 
 bool PackedCloth::hasNewMesh() const {
@@ -129,7 +134,7 @@ bool PackedCloth::predict(btScalar dt) {
   m_body.m_sst.updmrg = m_body.m_sst.radmrg * btScalar(0.25);
   m_body.m_rcontacts.resize(0);
   m_body.m_scontacts.resize(0);
-  m_isPredicted = m_body.m_sst.sdt > 0 && std::isfinite(m_body.m_sst.isdt) && m_nodes.read();
+  m_isPredicted = m_body.m_sst.sdt > 0 && std::isfinite(m_body.m_sst.isdt) && m_nodes.take();
   if (!m_isPredicted) return false;
   m_nodes.predict(m_body.m_sst.sdt, m_body.m_worldInfo->m_gravity, largestPush(m_body));
   updateBounds();

@@ -37,6 +37,12 @@ class PackedCloth {
   /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
 
+  /// The nodes' arrays; not those of the body's present mesh while it hasNewMesh().
+  PackedNodes& nodes() { return m_nodes; }
+  /// Whether the body was cut, or is another one, since its mesh was taken.
+  bool hasNewMesh() const;
+  /// Takes the mesh when it is a new one.
+  void followMesh();
   /// Before the step: the mesh, and the links as they are now.
   void follow(const ClothSolver::Parameters& parameters, btScalar dt);
   /// Scales the stiffness of each link; empty: of none. The revision tells whether these are others than before.
@@ -51,7 +57,6 @@ class PackedCloth {
   void finish();
 
  private:
-  bool hasNewMesh() const;
   void takeMesh();
   void takeLinks(const ClothSolver::Parameters& parameters);
   bool linksSeemChanged(const ClothSolver::Parameters& parameters);

@@ -156,14 +156,15 @@ struct PackedLinks::RunKernel {
 
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
-    for (const Run& stretch : links.m_runs) run<Lanes>(stretch);
+    for (const Run stretch : links.m_runs) run<Lanes>(stretch);
   }
 
   template <class Lanes>
-  WETCLOTH_INLINE void run(const Run& stretch) const {
+  WETCLOTH_INLINE void run(const Run stretch) const {
     btScalar* const x = nodes.position[0];
     btScalar* const y = nodes.position[1];
     btScalar* const z = nodes.position[2];
+    const btScalar* const inverseMass = nodes.inverseMass;
     const btScalar* const restLength = links.m_restLength.data() + stretch.firstLane;
     const btScalar* const compliance = links.m_compliance.data() + stretch.firstLane;
     const Lanes stepFactor = everywhere<Lanes>(perStepSquared);
@@ -172,8 +173,8 @@ struct PackedLinks::RunKernel {
       const std::size_t b = stretch.b + k;
       const Lanes ax = load<Lanes>(x + a), ay = load<Lanes>(y + a), az = load<Lanes>(z + a);
       const Lanes bx = load<Lanes>(x + b), by = load<Lanes>(y + b), bz = load<Lanes>(z + b);
-      const Lanes wa = load<Lanes>(nodes.inverseMass + a);
-      const Lanes wb = load<Lanes>(nodes.inverseMass + b);
+      const Lanes wa = load<Lanes>(inverseMass + a);
+      const Lanes wb = load<Lanes>(inverseMass + b);
       const Lanes dx = bx - ax, dy = by - ay, dz = bz - az;
       const Lanes share =
           pull<Lanes>(dx, dy, dz, wa + wb, load<Lanes>(restLength + k), load<Lanes>(compliance + k), stepFactor);

@@ -13,8 +13,9 @@ namespace wetcloth_test {
 /// A Bullet world with one soft body in it, taken out before both are destroyed.
 class BodyScene {
  public:
-  BodyScene(WorldKind kind, const BodyBuilder& builder, const btVector3& gravity = kEarthGravity)
-      : m_bullet(kind, gravity), m_body(builder(m_bullet.info())) {
+  BodyScene(WorldKind kind, const BodyBuilder& builder, const btVector3& gravity = kEarthGravity,
+            btSoftBodySolver* solver = nullptr)
+      : m_bullet(kind, gravity, solver), m_body(builder(m_bullet.info())) {
     m_bullet.add(*m_body);
   }
   explicit BodyScene(WorldKind kind, const wetcloth::ClothPatch& patch = squarePatch(5),
