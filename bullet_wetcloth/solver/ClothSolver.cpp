@@ -24,6 +24,11 @@ void requireValid(const ClothSolver::Parameters& parameters) {
     rejectValue("ClothSolver.smallSteps", parameters.smallSteps, "in [1, 1000]");
   }
   if (!(parameters.stiffness > 0)) rejectValue("ClothSolver.stiffness", parameters.stiffness, "> 0");
+  constexpr int kMostTethers = 8;
+  if (parameters.tethers < 0 || parameters.tethers > kMostTethers) {
+    rejectValue("ClothSolver.tethers", parameters.tethers, "in [0, 8]");
+  }
+  if (!(parameters.tetherScale >= 1)) rejectValue("ClothSolver.tetherScale", parameters.tetherScale, ">= 1");
 }
 
 // All that live. Of a body only the address of its solver is known, which may be of any class.

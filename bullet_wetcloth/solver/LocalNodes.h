@@ -54,6 +54,7 @@ class LocalNodes : public PackedNodes {
   /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
 
+  int nodeCount() const { return static_cast<int>(m_slots.size()); }
   /// Those of all nodes.
   const int* slots() const { return m_slots.data(); }
   MovingNodes moving();

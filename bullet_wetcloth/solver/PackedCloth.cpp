@@ -107,6 +107,7 @@ void PackedCloth::setLinkStiffness(const std::vector<btScalar>& factors, unsigne
 
 void PackedCloth::takeLinks(const ClothSolver::Parameters& parameters) {
   ++m_linksTaken;
+  m_tethers.forget();
   m_stiffness = parameters.stiffness;
   for (std::size_t k = 0; k < m_links.size(); ++k) {
     const btSoftBody::Link& link = m_body.m_links[static_cast<int>(k)];
@@ -196,11 +197,13 @@ void PackedCloth::solve(const ClothSolver::Parameters& parameters, const ClothSo
   const LinkedNodes linked = {{nodes.position[0], nodes.position[1], nodes.position[2]}, nodes.inverseMass};
   m_anchors.prepare(m_body, m_nodes);
   m_contacts.prepare(m_body, m_nodes, count);
+  m_tethers.follow(m_body, m_nodes, parameters.tethers, static_cast<btScalar>(parameters.tetherScale));
   for (int k = 0; k < count; ++k) {
     k == 0 ? step.begin(nodes) : step.advance(nodes);
     m_anchors.project(nodes, step.h);
     m_contacts.project(nodes, step.h);
     m_links.solve(linked, step.h);
+    m_tethers.project(nodes);
     if (callback) {
       callback({m_body,
                 k,

@@ -8,6 +8,7 @@
 #include "bullet_wetcloth/solver/LocalNodes.h"
 #include "bullet_wetcloth/solver/NodeNormals.h"
 #include "bullet_wetcloth/solver/PackedLinks.h"
+#include "bullet_wetcloth/solver/Tethers.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletSoftBody/btSoftBody.h>
@@ -71,6 +72,7 @@ class PackedCloth {
   NodeNormals m_normals;
   ContactProjection m_contacts;
   AnchorProjection m_anchors;
+  Tethers m_tethers;
   std::vector<btScalar> m_weights;  // of each link: the sum of its ends' inverse masses when the mesh was taken
   std::vector<btScalar> m_stiffnessFactors;  // of each link, or none
   unsigned long long m_stiffnessRevision = 0;

@@ -401,7 +401,53 @@ TEST(ClothSolver, ShowsEachSmallStep) {
   EXPECT_LT(double((last - body.m_nodes[2].m_x).length()), 1e-6);
 }
 
+// Largest distance of a node from the pinned row above it, over what the cloth has at rest.
+double reach(const btSoftBody& body, int n) {
+  double longest = 0;
+  for (int k = 0; k < n; ++k) {
+    const btVector3 away = body.m_nodes[k].m_x - body.m_nodes[n * (n - 1) + k].m_x;
+    longest = std::max(longest, double(away.length()));
+  }
+  return longest;
+}
+
+TEST(ClothSolver, TethersHoldAFineClothAtFewSmallSteps) {
+  constexpr int kSide = 24;
+  const auto reachWith = [](int tethers, double scale) {
+    wetcloth::ClothSolver::Parameters parameters = smallSteps(2);
+    parameters.tethers = tethers;
+    parameters.tetherScale = scale;
+    SolverScene scene(WorldKind::softRigid, kEarthGravity, parameters);
+    btSoftBody& body = scene.add(hangingPatch(kSide));
+    scene.step(60);
+    return reach(body, kSide);
+  };
+  EXPECT_GT(reachWith(0, 1), 1.03);
+  EXPECT_LT(reachWith(1, 1), 1 + 1e-5);
+  EXPECT_LT(reachWith(1, 1.02), 1.02 + 1e-4);
+  EXPECT_GT(reachWith(1, 1.02), 1.01);
+}
+
+TEST(ClothSolver, TethersFollowWhatIsPinned) {
+  wetcloth::ClothSolver::Parameters parameters = smallSteps(4);
+  parameters.tethers = 2;
+  SolverScene scene(WorldKind::softRigid, kEarthGravity, parameters);
+  btSoftBody& body = scene.add(hangingPatch(8));
+  scene.step(5);
+  for (int k = 0; k < body.m_nodes.size(); ++k) body.m_nodes[k].m_im = 100;  // all free: it falls
+  scene.step(60);
+  EXPECT_LT(double(body.m_nodes[63].m_x.y()), -3);
+}
+
 TEST(ClothSolver, RefusesBadParameters) {
+  wetcloth::ClothSolver::Parameters tethered;
+  tethered.tethers = 9;
+  EXPECT_NE(rejection([&] { wetcloth::ClothSolver solver(tethered); }).find("ClothSolver.tethers = 9"),
+            std::string::npos);
+  tethered.tethers = 1;
+  tethered.tetherScale = 0.9;
+  EXPECT_NE(rejection([&] { wetcloth::ClothSolver solver(tethered); }).find("ClothSolver.tetherScale = 0.9"),
+            std::string::npos);
   EXPECT_NE(
       rejection([&] { static_cast<void>(wetcloth::ClothSolver(smallSteps(0))); }).find("ClothSolver.smallSteps = 0"),
       std::string::npos);
