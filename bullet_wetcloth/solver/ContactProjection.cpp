@@ -18,26 +18,43 @@ int degreesOfFreedom(const btMultiBodyLinkCollider& link) { return link.m_multiB
 }  // namespace
 
 void ContactProjection::prepare(const btSoftBody& body, const LocalNodes& nodes, int smallSteps) {
+  m_fixed.clear();
   m_contacts.clear();
   m_jacobians.clear();
   m_margin = body.getCollisionShape()->getMargin();
   const btScalar perIteration = static_cast<btScalar>(body.m_cfg.piterations) / static_cast<btScalar>(smallSteps);
+  btScalar leftInAll = 1;  // of the slipping, by the last contact: most are alike
+  btScalar left = 1;
   for (int k = 0; k < body.m_rcontacts.size(); ++k) {
     const btSoftBody::RContact& listed = body.m_rcontacts[k];
     const int node = findIndex(body.m_nodes, static_cast<const btSoftBody::Node*>(listed.m_node));
     if (node < 0 || !listed.m_cti.m_colObj->hasContactResponse()) continue;
+    if (listed.m_c3 != leftInAll) {
+      leftInAll = listed.m_c3;
+      left = std::pow(std::max(leftInAll, btScalar(0)), perIteration);
+    }
+    const std::size_t slot = nodes.slot(toSize(node));
+    const btScalar offset = listed.m_cti.m_offset + listed.m_cti.m_normal.dot(nodes.origin());
+    const btScalar recovers = listed.m_c4 / static_cast<btScalar>(smallSteps);
+    auto* const object = const_cast<btCollisionObject*>(listed.m_cti.m_colObj);
+    btRigidBody* const rigid = btRigidBody::upcast(object);
+    btMultiBodyLinkCollider* const link = btMultiBodyLinkCollider::upcast(object);
+    if (!link && !(rigid && rigid->getInvMass() > 0)) {
+      const btVector3 velocity = rigid ? rigid->getVelocityInLocalPoint(listed.m_c1) : btVector3(0, 0, 0);
+      m_fixed.push_back({slot, listed.m_cti.m_normal, velocity, offset, left, recovers});
+      continue;
+    }
     Contact contact = {};
-    contact.slot = nodes.slot(toSize(node));
+    contact.slot = slot;
     contact.normal = listed.m_cti.m_normal;
-    contact.offset = listed.m_cti.m_offset + contact.normal.dot(nodes.origin());
+    contact.offset = offset;
     contact.moves = listed.m_c0.scaled(btVector3(1, 1, 1) * listed.m_c2);
     contact.pushes = listed.m_c0.scaled(btVector3(1, 1, 1) * body.m_sst.sdt);
-    contact.slips = std::pow(std::max(listed.m_c3, btScalar(0)), perIteration);
-    contact.recovers = listed.m_c4 / static_cast<btScalar>(smallSteps);
+    contact.slips = left;
+    contact.recovers = recovers;
     contact.arm = listed.m_c1;
-    auto* const object = const_cast<btCollisionObject*>(listed.m_cti.m_colObj);
-    contact.rigid = btRigidBody::upcast(object);
-    contact.link = btMultiBodyLinkCollider::upcast(object);
+    contact.rigid = rigid;
+    contact.link = link;
     if (contact.link) addJacobian(contact, listed.m_node->m_x);
     m_contacts.push_back(contact);
   }
@@ -74,6 +91,26 @@ void ContactProjection::push(const Contact& contact, const btVector3& impulse) {
 }
 
 void ContactProjection::project(const MovingNodes& nodes, btScalar h) {
+  projectFixed(nodes, h);
+  projectMovable(nodes, h);
+}
+
+void ContactProjection::projectFixed(const MovingNodes& nodes, btScalar h) {
+  for (FixedContact& contact : m_fixed) {
+    const std::size_t i = contact.slot;
+    const btVector3 carried = contact.velocity * h;
+    contact.offset -= carried.dot(contact.normal);
+    const btVector3 relative = nodes.wayOf(i, h) - carried;
+    const btScalar approach = relative.dot(contact.normal);
+    if (approach > SIMD_EPSILON) continue;
+    const btScalar gap = std::min(nodes.placeOf(i).dot(contact.normal) + contact.offset, m_margin);
+    const btVector3 slip = relative - contact.normal * approach;
+    const btVector3 moved = relative - slip * contact.slips + contact.normal * (gap * contact.recovers);
+    for (int axis = 0; axis < 3; ++axis) nodes.position[axis][i] -= moved[axis];
+  }
+}
+
+void ContactProjection::projectMovable(const MovingNodes& nodes, btScalar h) {
   for (Contact& contact : m_contacts) {
     const std::size_t i = contact.slot;
     const btVector3 place = nodes.placeOf(i);

@@ -26,6 +26,15 @@ class ContactProjection {
   void project(const MovingNodes& nodes, btScalar h);
 
  private:
+  // With what no impulse moves: its velocity is the same in all small steps.
+  struct FixedContact {
+    std::size_t slot;
+    btVector3 normal;
+    btVector3 velocity;  // of what is touched
+    btScalar offset;     // of the plane, which moves with it; places are those of the arrays
+    btScalar slips;      // share of the slipping that stays in a small step
+    btScalar recovers;   // share of the depth that goes in a small step
+  };
   struct Contact {
     std::size_t slot;
     btVector3 normal;
@@ -40,10 +49,13 @@ class ContactProjection {
     std::size_t firstJacobian;  // of the link
   };
 
+  void projectFixed(const MovingNodes& nodes, btScalar h);
+  void projectMovable(const MovingNodes& nodes, btScalar h);
   void addJacobian(Contact& contact, const btVector3& place);
   btVector3 velocityOf(const Contact& contact) const;
   void push(const Contact& contact, const btVector3& impulse);
 
+  std::vector<FixedContact> m_fixed;
   std::vector<Contact> m_contacts;
   btScalar m_margin = 0;
   std::vector<btScalar> m_jacobians;  // for each link that is touched: its Jacobian, and what a unit impulse does

@@ -5,7 +5,7 @@
 #include "bullet_wetcloth/solver/WhyNotTaken.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
-#include <BulletSoftBody/btSoftBodyInternals.h>
+#include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 
 #include <algorithm>
 #include <cmath>
@@ -133,6 +133,7 @@ bool PackedCloth::predict(btScalar dt) {
   m_body.m_sst.velmrg = m_body.m_sst.sdt * 3;
   m_body.m_sst.radmrg = m_body.getCollisionShape()->getMargin();
   m_body.m_sst.updmrg = m_body.m_sst.radmrg * btScalar(0.25);
+  m_detection.begin();
   m_body.m_rcontacts.resize(0);
   m_body.m_scontacts.resize(0);
   m_isPredicted = m_body.m_sst.sdt > 0 && std::isfinite(m_body.m_sst.isdt) && m_nodes.take();
@@ -162,29 +163,22 @@ void PackedCloth::updateFaceTree() {
   for (int k = 0; k < m_body.m_faces.size(); ++k) {
     btSoftBody::Face& face = m_body.m_faces[k];
     const btVector3 velocity = (face.m_n[0]->m_v + face.m_n[1]->m_v + face.m_n[2]->m_v) / 3;
-    btDbvtVolume volume = VolumeOf(face, m_body.m_sst.radmrg);
+    btVector3 least = face.m_n[0]->m_x;
+    btVector3 largest = least;
+    for (const btSoftBody::Node* const node : face.m_n) {
+      least.setMin(node->m_x);
+      largest.setMax(node->m_x);
+    }
+    btDbvtVolume volume = btDbvtVolume::FromMM(least, largest);
+    volume.Expand(btVector3(1, 1, 1) * m_body.m_sst.radmrg);
     m_body.m_fdbvt.update(face.m_leaf, volume, velocity * m_body.m_sst.velmrg, m_body.m_sst.updmrg);
   }
   m_body.m_fdbvt.optimizeIncremental(1);
 }
 
-// Bullet's own detection, of the nodes in the object's box.
 void PackedCloth::collide(const btCollisionObjectWrapper& object) {
-  if (!m_isPredicted || (m_body.m_cfg.collisions & btSoftBody::fCollision::RVSmask) != btSoftBody::fCollision::SDF_RS) {
-    return;
-  }
-  const btScalar margin = m_body.getCollisionShape()->getMargin();
-  btSoftColliders::CollideSDF_RS detection;
-  detection.psb = &m_body;
-  detection.m_colObj1Wrap = &object;
-  detection.m_rigidBody = const_cast<btRigidBody*>(btRigidBody::upcast(object.getCollisionObject()));
-  detection.dynmargin = margin;
-  detection.stamargin = margin;
-  btVector3 least;
-  btVector3 largest;
-  object.getCollisionShape()->getAabb(object.getWorldTransform(), least, largest);
-  const btVector3 around = btVector3(1, 1, 1) * margin;
-  m_nodes.forEachPredictedIn(least - around, largest + around, [&](btSoftBody::Node& node) { detection.DoNode(node); });
+  const int way = m_body.m_cfg.collisions & btSoftBody::fCollision::RVSmask;
+  if (m_isPredicted && way == btSoftBody::fCollision::SDF_RS) m_detection.detect(m_body, m_nodes, object);
 }
 
 void PackedCloth::solve(const ClothSolver::Parameters& parameters, const ClothSolver::SmallStepCallback& callback) {

@@ -8,6 +8,7 @@
 #include "bullet_wetcloth/solver/LocalNodes.h"
 #include "bullet_wetcloth/solver/NodeNormals.h"
 #include "bullet_wetcloth/solver/PackedLinks.h"
+#include "bullet_wetcloth/solver/RigidDetection.h"
 #include "bullet_wetcloth/solver/Tethers.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
@@ -70,6 +71,7 @@ class PackedCloth {
   LocalNodes m_nodes;
   PackedLinks m_links;
   NodeNormals m_normals;
+  RigidDetection m_detection;
   ContactProjection m_contacts;
   AnchorProjection m_anchors;
   Tethers m_tethers;

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/solver/LocalNodes.h"
+
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletSoftBody/btSoftBody.h>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Finds the nodes of a cloth that would be in a rigid body, or a link of a multibody, at the end of the step, and
+/// lists them as Bullet does: btSoftBody::m_rcontacts. Boxes, spheres and planes by their closed forms, other shapes by
+/// Bullet's own test of a node.
+class RigidDetection {
+ public:
+  /// A new step: no object was looked at.
+  void begin() { m_plane = nullptr; }
+  /// Looks at an object, whose prediction by `nodes` has been made.
+  void detect(btSoftBody& body, LocalNodes& nodes, const btCollisionObjectWrapper& object);
+
+ private:
+  const btCollisionObject* m_plane = nullptr;  // Bullet shows a plane once for each of its two triangles
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Zlib
+#include "bullet_wetcloth/solver/ShapeDistance.h"
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+ShapeDistance distanceToBox(const btVector3& halfExtents, const btVector3& point) {
+  const btVector3 beyond = point.absolute() - halfExtents;
+  const btVector3 out(std::max(beyond.x(), btScalar(0)), std::max(beyond.y(), btScalar(0)),
+                      std::max(beyond.z(), btScalar(0)));
+  const btScalar distance = out.length();
+  btVector3 normal(0, 0, 0);
+  if (distance > 0) {
+    for (int axis = 0; axis < 3; ++axis) normal[axis] = std::copysign(out[axis] / distance, point[axis]);
+    return {distance, normal};
+  }
+  const int nearest = beyond.maxAxis();
+  normal[nearest] = std::copysign(btScalar(1), point[nearest]);
+  return {beyond[nearest], normal};
+}
+
+ShapeDistance distanceToSphere(btScalar radius, const btVector3& point) {
+  const btScalar length = point.length();
+  const btVector3 up(0, 1, 0);  // from the centre all ways out are as long
+  return {length - radius, length > 0 ? point / length : up};
+}
+
+}  // namespace
+
+bool hasDistance(const btCollisionShape& shape) {
+  const int type = shape.getShapeType();
+  return type == BOX_SHAPE_PROXYTYPE || type == SPHERE_SHAPE_PROXYTYPE || type == STATIC_PLANE_PROXYTYPE;
+}
+
+ShapeDistance distanceTo(const btCollisionShape& shape, const btVector3& point) {
+  if (shape.getShapeType() == BOX_SHAPE_PROXYTYPE) {
+    return distanceToBox(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin(), point);
+  }
+  if (shape.getShapeType() == SPHERE_SHAPE_PROXYTYPE) {
+    return distanceToSphere(static_cast<const btSphereShape&>(shape).getRadius(), point);
+  }
+  const btStaticPlaneShape& plane = static_cast<const btStaticPlaneShape&>(shape);
+  return {plane.getPlaneNormal().dot(point) - plane.getPlaneConstant(), plane.getPlaneNormal()};
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
