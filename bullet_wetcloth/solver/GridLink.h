@@ -32,10 +32,12 @@ inline std::optional<GridLink> gridLink(int a, int b, int columns) {
 /// The slot of a node.
 inline std::size_t slotInGrid(const NodeSlots::Grid& grid, int node) {
   const std::size_t classes = toSize(NodeSlots::kClasses);
-  const std::size_t row = toSize(node / grid.columns);
+  const std::size_t tile = toSize(grid.tileOf(node));
+  const std::size_t row = toSize(node / grid.columns % grid.tileRows);
   const std::size_t column = toSize(node % grid.columns);
   const std::size_t block = row % classes * classes + column % classes;
-  return grid.first + block * grid.blockSize + row / classes * grid.blockColumns + column / classes;
+  const std::size_t inBlock = row / classes * grid.blockColumns + column / classes;
+  return tile * grid.tileSize + grid.first + block * grid.blockSize + inBlock;
 }
 
 }  // namespace WETCLOTH_PRECISION

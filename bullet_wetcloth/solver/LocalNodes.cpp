@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/numerics/BestLanes.h"
+#include "bullet_wetcloth/solver/Parts.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
@@ -137,24 +138,31 @@ void LocalNodes::centre() {
 
 void LocalNodes::readNodes() {
   centre();
-  const btSoftBody::Node* node = m_slots.empty() ? nullptr : &m_body.m_nodes[0];
-  btScalar anyForce = 0;
-  for (const int slotOfNode : m_slots) {
-    const std::size_t slot = toSize(slotOfNode);
-    for (int axis = 0; axis < 3; ++axis) {
-      const btScalar place = node->m_x[axis];
-      if (m_isNew || place != m_origin[axis] + position[axis][slot]) {
-        position[axis][slot] = place - m_origin[axis];
-      }
-      velocity[axis][slot] = node->m_v[axis];
-      m_force[axis][slot] = node->m_f[axis];
-      anyForce += std::fabs(node->m_f[axis]);
-    }
-    inverseMass[slot] = node->m_im;
-    ++node;
-  }
-  m_hasForces = anyForce != 0;
+  m_hasForces = false;
+  std::atomic<bool> hasForces{false};
+  forEachStretch(m_slots.size(), [&](std::size_t begin, std::size_t end) {
+    if (readStretch(begin, end)) hasForces = true;
+  });
+  m_hasForces = hasForces;
   m_isNew = false;
+}
+
+// Whether a force acts on one of these nodes.
+bool LocalNodes::readStretch(std::size_t begin, std::size_t end) {
+  btScalar anyForce = 0;
+  for (std::size_t k = begin; k < end; ++k) {
+    const btSoftBody::Node& node = m_body.m_nodes[static_cast<int>(k)];
+    const std::size_t s = toSize(m_slots[k]);
+    for (int axis = 0; axis < 3; ++axis) {
+      const btScalar place = node.m_x[axis];
+      if (m_isNew || place != m_origin[axis] + position[axis][s]) position[axis][s] = place - m_origin[axis];
+      velocity[axis][s] = node.m_v[axis];
+      m_force[axis][s] = node.m_f[axis];
+      anyForce += std::fabs(node.m_f[axis]);
+    }
+    inverseMass[s] = node.m_im;
+  }
+  return anyForce != 0;
 }
 
 void LocalNodes::writeVelocities() {
@@ -233,22 +241,24 @@ void LocalNodes::hidePredictions() {
   m_shown.clear();
 }
 
-// A pinned node stays where it was put, to the last bit.
 void LocalNodes::write(const Lane (&normals)[3]) {
   hidePredictions();
-  btSoftBody::Node* node = m_slots.empty() ? nullptr : &m_body.m_nodes[0];
-  for (const int slotOfNode : m_slots) {
-    const std::size_t slot = toSize(slotOfNode);
-    node->m_q = node->m_x;
-    const bool rests =
-        inverseMass[slot] == 0 && velocity[0][slot] == 0 && velocity[1][slot] == 0 && velocity[2][slot] == 0;
-    if (!rests)
-      node->m_x.setValue(m_origin.x() + position[0][slot], m_origin.y() + position[1][slot],
-                         m_origin.z() + position[2][slot]);
-    node->m_v.setValue(velocity[0][slot], velocity[1][slot], velocity[2][slot]);
-    node->m_f.setZero();
-    node->m_n.setValue(normals[0][slot], normals[1][slot], normals[2][slot]);
-    ++node;
+  forEachStretch(m_slots.size(), [&](std::size_t begin, std::size_t end) { writeStretch(normals, begin, end); });
+}
+
+// A pinned node stays where it was put, to the last bit.
+void LocalNodes::writeStretch(const Lane (&normals)[3], std::size_t begin, std::size_t end) {
+  for (std::size_t k = begin; k < end; ++k) {
+    btSoftBody::Node& node = m_body.m_nodes[static_cast<int>(k)];
+    const std::size_t s = toSize(m_slots[k]);
+    const btVector3 v(velocity[0][s], velocity[1][s], velocity[2][s]);
+    node.m_q = node.m_x;
+    if (inverseMass[s] != 0 || v.length2() != 0) {
+      node.m_x.setValue(m_origin.x() + position[0][s], m_origin.y() + position[1][s], m_origin.z() + position[2][s]);
+    }
+    node.m_v = v;
+    node.m_f.setZero();
+    node.m_n.setValue(normals[0][s], normals[1][s], normals[2][s]);
   }
 }
 

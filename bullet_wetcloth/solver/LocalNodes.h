@@ -65,6 +65,8 @@ class LocalNodes : public PackedNodes {
 
  private:
   void centre();
+  bool readStretch(std::size_t begin, std::size_t end);
+  void writeStretch(const Lane (&normals)[3], std::size_t begin, std::size_t end);
   void findPredictedIn(const btVector3& least, const btVector3& largest);
   btSoftBody::Node& showPrediction(int slot);
   void hidePredictions();

@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/numerics/BestLanes.h"
+#include "bullet_wetcloth/solver/Parts.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -104,13 +105,15 @@ void NodeNormals::compute(const MovingNodes& nodes) {
 }
 
 void NodeNormals::writeFaces(btSoftBody& body, const MovingNodes& nodes) const {
-  btSoftBody::Face* face = m_faces.empty() ? nullptr : &body.m_faces[0];
-  for (const TriangleBlocks::Triangle& corners : m_faces) {
-    const btVector3 a = nodes.placeOf(toSize(corners[0]));
-    face->m_normal = (nodes.placeOf(toSize(corners[1])) - a).cross(nodes.placeOf(toSize(corners[2])) - a);
-    face->m_normal.safeNormalize();
-    ++face;
-  }
+  forEachStretch(m_faces.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const TriangleBlocks::Triangle& corners = m_faces[k];
+      const btVector3 a = nodes.placeOf(toSize(corners[0]));
+      btVector3& normal = body.m_faces[static_cast<int>(k)].m_normal;
+      normal = (nodes.placeOf(toSize(corners[1])) - a).cross(nodes.placeOf(toSize(corners[2])) - a);
+      normal.safeNormalize();
+    }
+  });
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kCandidates = 8;  // numbers of columns to try
 constexpr double kShareOfGrid = 0.9;    // of the links, that make a mesh a grid
+constexpr int kNodesInTile = 8192;      // about: small enough for a cache, large enough for a thread to pay
 constexpr std::size_t kClassesSize = NodeSlots::kClasses;
 
 std::size_t roundUp(std::size_t size) { return (size + NodeSlots::kLanes - 1) / NodeSlots::kLanes * NodeSlots::kLanes; }
@@ -59,11 +60,25 @@ int findColumns(const btSoftBody& body) {
   return best;
 }
 
-// Behind each block there is room for a row and a column, so that a stretch of one block never ends in another.
+// As many as make tiles of about the same size.
+int rowsOfTile(int rows, int columns) {
+  const int tiles = std::max(1, rows * columns / kNodesInTile);
+  const int quarters = (rows + tiles * NodeSlots::kClasses - 1) / (tiles * NodeSlots::kClasses);
+  return quarters * NodeSlots::kClasses;
+}
+
+// Around each block there is room for a row and a column, so that a stretch of one block never ends in another.
 NodeSlots::Grid gridOf(int nodes, int columns) {
-  const int rows = (nodes + columns - 1) / columns;
-  const std::size_t room = quarter(columns) + 1 + NodeSlots::kLanes;
-  return {columns, rows, quarter(columns), roundUp(quarter(columns) * quarter(rows) + room), roundUp(room)};
+  NodeSlots::Grid grid = {};
+  grid.columns = columns;
+  grid.rows = (nodes + columns - 1) / columns;
+  grid.tileRows = rowsOfTile(grid.rows, columns);
+  grid.blockColumns = quarter(columns);
+  const std::size_t room = roundUp(grid.blockColumns + 1 + NodeSlots::kLanes);
+  grid.blockSize = roundUp(grid.blockColumns * quarter(grid.tileRows)) + room;
+  grid.first = room;
+  grid.tileSize = room + kClassesSize * kClassesSize * grid.blockSize;
+  return grid;
 }
 
 }  // namespace
@@ -80,7 +95,7 @@ NodeSlots findSlots(const btSoftBody& body) {
   }
   slots.grid = gridOf(nodes, columns);
   for (int k = 0; k < nodes; ++k) slots.ofNode[toSize(k)] = static_cast<int>(slotInGrid(*slots.grid, k));
-  slots.count = slots.grid->first + kClassesSize * kClassesSize * slots.grid->blockSize;
+  slots.count = toSize(slots.grid->tiles()) * slots.grid->tileSize;
   return slots;
 }
 

@@ -16,7 +16,8 @@ inline namespace WETCLOTH_PRECISION {
 ///
 /// The nodes of a grid are sorted into 16 blocks, by row and column modulo 4. Then links of one direction between two
 /// blocks are two stretches of consecutive slots, in which no node comes twice: a processor works on several at once
-/// without gathering, in an order that sweeps in no direction. Other meshes keep their order.
+/// without gathering, in an order that sweeps in no direction. Large grids are cut into tiles of some rows, each with
+/// blocks of its own, which several threads can work on. Other meshes keep their order.
 struct NodeSlots {
   /// Slots that a loop works on at once, at most: every stretch begins at a multiple of it.
   static constexpr std::size_t kLanes = 8;
@@ -27,9 +28,14 @@ struct NodeSlots {
   struct Grid {
     int columns;
     int rows;
+    int tileRows;              ///< rows of a tile, a multiple of kClasses
     std::size_t blockColumns;  ///< columns in a block
     std::size_t blockSize;     ///< slots from one block to the next
-    std::size_t first;         ///< slot of the first block
+    std::size_t tileSize;      ///< slots from one tile to the next
+    std::size_t first;         ///< slot of the first block in its tile
+
+    int tiles() const { return (rows + tileRows - 1) / tileRows; }
+    int tileOf(int node) const { return node / columns / tileRows; }
   };
 
   std::vector<int> ofNode;   ///< slot of each node

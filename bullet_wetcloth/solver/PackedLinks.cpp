@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/numerics/BestLanes.h"
 #include "bullet_wetcloth/solver/GridLink.h"
+#include "bullet_wetcloth/solver/Parts.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
@@ -23,14 +24,18 @@ constexpr btScalar kNoLink = std::numeric_limits<btScalar>::infinity();
 // Small against every length and inverse mass, and no division by it overflows.
 constexpr btScalar kTiny = btScalar(1e-18);
 
-// Families of links in an order in which none sweeps along the cloth: first those of every other row, or column.
+// Families of links in an order in which none sweeps along the cloth: first those of every other row, or column. Those
+// that lead from one tile to the next come last.
 struct Family {
+  bool isBetweenTiles;
+  int tile;
   int rows;
   int columns;
   int turn;   // of the class along the direction
   int other;  // class across it
   bool operator<(const Family& family) const {
-    return std::tie(rows, columns, turn, other) < std::tie(family.rows, family.columns, family.turn, family.other);
+    return std::tie(isBetweenTiles, tile, rows, columns, turn, other) <
+           std::tie(family.isBetweenTiles, family.tile, family.rows, family.columns, family.turn, family.other);
   }
 };
 
@@ -39,11 +44,13 @@ int turnOf(int position, int reach) {
   return reach % 2 == 0 ? position : alternating[toSize(position)];
 }
 
-Family familyOf(const GridLink& link, int columns) {
-  const int row = link.from / columns % NodeSlots::kClasses;
-  const int column = link.from % columns % NodeSlots::kClasses;
-  if (link.rows > 0) return {link.rows, link.columns, turnOf(row, link.rows), column};
-  return {0, link.columns, turnOf(column, link.columns), row};
+Family familyOf(const GridLink& link, int to, const NodeSlots::Grid& grid) {
+  const int row = link.from / grid.columns % NodeSlots::kClasses;
+  const int column = link.from % grid.columns % NodeSlots::kClasses;
+  const int tile = grid.tileOf(link.from);
+  const bool isBetweenTiles = tile != grid.tileOf(to);
+  if (link.rows > 0) return {isBetweenTiles, tile, link.rows, link.columns, turnOf(row, link.rows), column};
+  return {isBetweenTiles, tile, 0, link.columns, turnOf(column, link.columns), row};
 }
 
 // A link's pull: how far each end moves along the line between them, per inverse mass and length of that line.
@@ -77,12 +84,12 @@ std::vector<int> PackedLinks::addRuns(const btSoftBody& body, const NodeSlots& s
   std::map<Family, std::vector<int>> families;
   std::vector<int> others;
   for (int k = 0; k < body.m_links.size(); ++k) {
-    const btSoftBody::Link& link = body.m_links[k];
-    const auto found = slots.grid
-                           ? gridLink(nodeIndex(body, link.m_n[0]), nodeIndex(body, link.m_n[1]), slots.grid->columns)
-                           : std::nullopt;
-    found ? families[familyOf(*found, slots.grid->columns)].push_back(k) : others.push_back(k);
+    const int a = nodeIndex(body, body.m_links[k].m_n[0]);
+    const int b = nodeIndex(body, body.m_links[k].m_n[1]);
+    const auto found = slots.grid ? gridLink(a, b, slots.grid->columns) : std::nullopt;
+    found ? families[familyOf(*found, std::max(a, b), *slots.grid)].push_back(k) : others.push_back(k);
   }
+  m_tileEnd.assign(slots.grid ? toSize(slots.grid->tiles()) : 0, 0);
   for (const auto& [family, links] : families) {
     const auto ends = [&](int k) {
       const btSoftBody::Link& link = body.m_links[k];
@@ -111,7 +118,10 @@ std::vector<int> PackedLinks::addRuns(const btSoftBody& body, const NodeSlots& s
       m_laneOfLink[toSize(k)] = m_restLength.size() + lane;
     }
     m_restLength.resize(m_restLength.size() + lanes, 0);
+    if (!family.isBetweenTiles) m_tileEnd[toSize(family.tile)] = m_runs.size();
   }
+  for (std::size_t tile = 1; tile < m_tileEnd.size(); ++tile)
+    m_tileEnd[tile] = std::max(m_tileEnd[tile], m_tileEnd[tile - 1]);
   std::sort(others.begin(), others.end());
   return others;
 }
@@ -153,10 +163,12 @@ struct PackedLinks::RunKernel {
   const PackedLinks& links;
   const LinkedNodes& nodes;
   btScalar perStepSquared;
+  std::size_t first;  // run
+  std::size_t end;
 
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
-    for (const Run stretch : links.m_runs) run<Lanes>(stretch);
+    for (std::size_t k = first; k < end; ++k) run<Lanes>(links.m_runs[k]);
   }
 
   template <class Lanes>
@@ -250,7 +262,12 @@ void PackedLinks::scatter(const LinkedNodes& nodes) const {
 
 void PackedLinks::solve(const LinkedNodes& nodes, btScalar h) {
   const btScalar perStepSquared = 1 / (h * h);
-  runOnBestLanes(RunKernel{*this, nodes, perStepSquared});
+  forEachPart(m_tileEnd.size(), [&](std::size_t tile) {
+    const std::size_t first = tile == 0 ? 0 : m_tileEnd[tile - 1];
+    runOnBestLanes(RunKernel{*this, nodes, perStepSquared, first, m_tileEnd[tile]});
+  });
+  const std::size_t firstBetweenTiles = m_tileEnd.empty() ? 0 : m_tileEnd.back();
+  runOnBestLanes(RunKernel{*this, nodes, perStepSquared, firstBetweenTiles, m_runs.size()});
   if (m_batches.empty()) return;
   gather(nodes);
   runOnBestLanes(BatchKernel{*this, perStepSquared});

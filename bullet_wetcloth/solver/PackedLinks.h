@@ -75,7 +75,8 @@ class PackedLinks {
   void gather(const LinkedNodes& nodes);
   void scatter(const LinkedNodes& nodes) const;
 
-  std::vector<Run> m_runs;
+  std::vector<Run> m_runs;             // of each tile, and then between tiles
+  std::vector<std::size_t> m_tileEnd;  // run after the last one of each tile
   std::vector<Batch> m_batches;
   std::vector<std::size_t> m_laneOfLink;
   std::vector<btScalar> m_restLength;  // of each lane; those of batches come after those of runs

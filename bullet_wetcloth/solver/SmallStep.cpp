@@ -2,6 +2,7 @@
 #include "bullet_wetcloth/solver/SmallStep.h"
 
 #include "bullet_wetcloth/numerics/BestLanes.h"
+#include "bullet_wetcloth/solver/Parts.h"
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
@@ -39,6 +40,8 @@ Push pushOf(const SmallStep& step, const MovingNodes& nodes, int axis) {
 struct Predict {
   const SmallStep& step;
   const MovingNodes& nodes;
+  std::size_t begin;
+  std::size_t end;
 
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
@@ -48,7 +51,7 @@ struct Predict {
       const btScalar* const position = nodes.position[axis];
       btScalar* const predicted = nodes.predicted[axis];
       const btScalar* const velocity = nodes.velocity[axis];
-      for (std::size_t i = 0; i < nodes.count; i += kLaneCount<Lanes>) {
+      for (std::size_t i = begin; i < end; i += kLaneCount<Lanes>) {
         const Lanes v = load<Lanes>(velocity + i) + push.at<Lanes>(i);
         store(predicted + i, load<Lanes>(position + i) + v * h);
       }
@@ -68,6 +71,8 @@ template <bool isFirst>
 struct Advance {
   const SmallStep& step;
   const MovingNodes& nodes;
+  std::size_t begin;
+  std::size_t end;
 
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
@@ -78,7 +83,7 @@ struct Advance {
       const Push push = pushOf(step, nodes, axis);
       btScalar* const position = nodes.position[axis];
       btScalar* const velocity = nodes.velocity[axis];
-      for (std::size_t i = 0; i < nodes.count; i += kLaneCount<Lanes>) {
+      for (std::size_t i = begin; i < end; i += kLaneCount<Lanes>) {
         const Lanes before = isFirst ? load<Lanes>(velocity + i) : settled<Lanes>(nodes, axis, i, perStep, keeps);
         const Lanes v = before + push.at<Lanes>(i);
         const Lanes x = load<Lanes>(position + i) + v * h;
@@ -93,13 +98,15 @@ struct Advance {
 struct End {
   const SmallStep& step;
   const MovingNodes& nodes;
+  std::size_t begin;
+  std::size_t end;
 
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
     const Lanes keeps = everywhere<Lanes>(step.keeps);
     const Lanes perStep = everywhere<Lanes>(1 / step.h);
     for (int axis = 0; axis < 3; ++axis) {
-      for (std::size_t i = 0; i < nodes.count; i += kLaneCount<Lanes>) {
+      for (std::size_t i = begin; i < end; i += kLaneCount<Lanes>) {
         store(nodes.velocity[axis] + i, settled<Lanes>(nodes, axis, i, perStep, keeps));
       }
     }
@@ -108,10 +115,29 @@ struct End {
 
 }  // namespace
 
-void SmallStep::predict(const MovingNodes& nodes) const { runOnBestLanes(Predict{*this, nodes}); }
-void SmallStep::begin(const MovingNodes& nodes) const { runOnBestLanes(Advance<true>{*this, nodes}); }
-void SmallStep::advance(const MovingNodes& nodes) const { runOnBestLanes(Advance<false>{*this, nodes}); }
-void SmallStep::end(const MovingNodes& nodes) const { runOnBestLanes(End{*this, nodes}); }
+void SmallStep::predict(const MovingNodes& nodes) const {
+  forEachStretch(nodes.count, [&](std::size_t begin, std::size_t end) {
+    runOnBestLanes(Predict{*this, nodes, begin, end});
+  });
+}
+
+void SmallStep::begin(const MovingNodes& nodes) const {
+  forEachStretch(nodes.count, [&](std::size_t begin, std::size_t end) {
+    runOnBestLanes(Advance<true>{*this, nodes, begin, end});
+  });
+}
+
+void SmallStep::advance(const MovingNodes& nodes) const {
+  forEachStretch(nodes.count, [&](std::size_t begin, std::size_t end) {
+    runOnBestLanes(Advance<false>{*this, nodes, begin, end});
+  });
+}
+
+void SmallStep::end(const MovingNodes& nodes) const {
+  forEachStretch(nodes.count, [&](std::size_t begin, std::size_t end) {
+    runOnBestLanes(End{*this, nodes, begin, end});
+  });
+}
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth
