@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/bullet/LaneAllocator.h"
 
 #include <BulletSoftBody/btSoftBody.h>
 
@@ -25,7 +26,7 @@ class WETCLOTH_EXPORT PackedNodes {
   /// Each array has this many elements more than there are slots, all 0, so that loops may work in blocks of this size.
   static constexpr std::size_t kPadding = 64;
   /// One number for each slot; 0 where there is no node.
-  using Lane = std::vector<btScalar>;
+  using Lane = std::vector<btScalar, LaneAllocator<btScalar>>;
 
   /// For the nodes of this body, which must outlive it; `deformable` in that world of Bullet.
   PackedNodes(btSoftBody& body, bool deformable) : m_body(body), m_deformable(deformable) {}

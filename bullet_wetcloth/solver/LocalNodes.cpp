@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/numerics/BestLanes.h"
 #include "bullet_wetcloth/solver/Parts.h"
+#include "bullet_wetcloth/solver/Prefetch.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
@@ -152,6 +153,7 @@ bool LocalNodes::readStretch(std::size_t begin, std::size_t end) {
   btScalar anyForce = 0;
   for (std::size_t k = begin; k < end; ++k) {
     const btSoftBody::Node& node = m_body.m_nodes[static_cast<int>(k)];
+    prefetch(&node + kPrefetchedAhead, sizeof node / 2);
     const std::size_t s = toSize(m_slots[k]);
     for (int axis = 0; axis < 3; ++axis) {
       const btScalar place = node.m_x[axis];
@@ -250,6 +252,7 @@ void LocalNodes::write(const Lane (&normals)[3]) {
 void LocalNodes::writeStretch(const Lane (&normals)[3], std::size_t begin, std::size_t end) {
   for (std::size_t k = begin; k < end; ++k) {
     btSoftBody::Node& node = m_body.m_nodes[static_cast<int>(k)];
+    prefetch(&node + kPrefetchedAhead, sizeof node / 2);
     const std::size_t s = toSize(m_slots[k]);
     const btVector3 v(velocity[0][s], velocity[1][s], velocity[2][s]);
     node.m_q = node.m_x;

@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/numerics/BestLanes.h"
 #include "bullet_wetcloth/solver/Parts.h"
+#include "bullet_wetcloth/solver/Prefetch.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -110,6 +111,9 @@ void NodeNormals::writeFaces(btSoftBody& body, const MovingNodes& nodes) const {
       const TriangleBlocks::Triangle& corners = m_faces[k];
       const btVector3 a = nodes.placeOf(toSize(corners[0]));
       btVector3& normal = body.m_faces[static_cast<int>(k)].m_normal;
+      prefetch(reinterpret_cast<const char*>(&normal) +
+                   kPrefetchedAhead * static_cast<std::ptrdiff_t>(sizeof(btSoftBody::Face)),
+               sizeof normal);
       normal = (nodes.placeOf(toSize(corners[1])) - a).cross(nodes.placeOf(toSize(corners[2])) - a);
       normal.safeNormalize();
     }

@@ -15,7 +15,7 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-constexpr std::size_t kStepsForAllLinks = 32;  // in which all links are looked at
+constexpr std::size_t kStepsForAllLinks = 64;  // in which all links are looked at
 
 btScalar inverseMasses(const btSoftBody::Link& link) { return link.m_n[0]->m_im + link.m_n[1]->m_im; }
 
@@ -189,6 +189,7 @@ void PackedCloth::solve(const ClothSolver::Parameters& parameters, const ClothSo
   const SmallStep step = {m_body.m_sst.sdt / static_cast<btScalar>(count), m_body.m_worldInfo->m_gravity, keeps, push};
   const MovingNodes nodes = m_nodes.moving();
   const LinkedNodes linked = {{nodes.position[0], nodes.position[1], nodes.position[2]}, nodes.inverseMass};
+  m_links.prepare(linked, step.h);
   m_anchors.prepare(m_body, m_nodes);
   m_contacts.prepare(m_body, m_nodes, count);
   m_tethers.follow(m_body, m_nodes, parameters.tethers, static_cast<btScalar>(parameters.tetherScale));
@@ -196,7 +197,7 @@ void PackedCloth::solve(const ClothSolver::Parameters& parameters, const ClothSo
     k == 0 ? step.begin(nodes) : step.advance(nodes);
     m_anchors.project(nodes, step.h);
     m_contacts.project(nodes, step.h);
-    m_links.solve(linked, step.h);
+    m_links.solve(linked);
     m_tethers.project(nodes);
     if (callback) {
       callback({m_body,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/bullet/PackedNodes.h"
 #include "bullet_wetcloth/solver/NodeSlots.h"
 
 #include <BulletSoftBody/btSoftBody.h>
@@ -23,9 +24,9 @@ struct LinkedNodes {
 /// The links of a body in an order in which a processor works on several at once.
 ///
 /// A link pulls its ends together as far as a spring of its stiffness k would in a step of h: with w the sum of the
-/// ends' inverse masses and C the stretch, by C / (w + a) with a = 1 / (k h^2) (XPBD; Macklin et al. 2016). One pass in
-/// a step lags behind the force by half a step, which stretches a cloth beyond its springs: w / 2 is taken off a, as
-/// far as it stays positive.
+/// ends' inverse masses and C the stretch, by C / (w + a) with a = 1 / (k h^2), the link's softness (XPBD; Macklin et
+/// al. 2016). One pass in a step lags behind the force by half a step, which stretches a cloth beyond its springs: w /
+/// 2 is taken off a, as far as it stays positive.
 class PackedLinks {
  public:
   /// For the links of this body, whose nodes stand in these slots. Lengths and compliances are those of no link yet.
@@ -39,6 +40,7 @@ class PackedLinks {
   void set(std::size_t link, btScalar restLength, btScalar compliance) {
     m_restLength[m_laneOfLink[link]] = restLength;
     m_compliance[m_laneOfLink[link]] = compliance;
+    m_h = 0;  // of no step: prepare() has to come
   }
   /// As last set.
   btScalar restLength(std::size_t link) const { return m_restLength[m_laneOfLink[link]]; }
@@ -48,8 +50,10 @@ class PackedLinks {
   /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
 
-  /// One pass over all links, in a step of h [s].
-  void solve(const LinkedNodes& nodes, btScalar h);
+  /// For passes in steps of h [s] with the masses that the nodes have now.
+  void prepare(const LinkedNodes& nodes, btScalar h);
+  /// One pass over all links.
+  void solve(const LinkedNodes& nodes);
 
  private:
   // Lane k: slots a + k and b + k.
@@ -59,13 +63,13 @@ class PackedLinks {
     std::size_t lanes;
     std::size_t firstLane;
   };
-  // Lane k: slots a[k] and b[k], of which no two are the same.
+  // Lane k: slots a[k] and b[k], of which no two are the same; the slot after the last one where there is no link.
   struct Batch {
     int a[NodeSlots::kLanes];
     int b[NodeSlots::kLanes];
   };
   struct Corner {
-    btScalar at[4];  // position and inverse mass
+    btScalar at[4];  // position, and one more for the processor's sake
   };
 
   std::vector<int> addRuns(const btSoftBody& body, const NodeSlots& slots);
@@ -79,11 +83,16 @@ class PackedLinks {
   std::vector<std::size_t> m_tileEnd;  // run after the last one of each tile
   std::vector<Batch> m_batches;
   std::vector<std::size_t> m_laneOfLink;
-  std::vector<btScalar> m_restLength;  // of each lane; those of batches come after those of runs
-  std::vector<btScalar> m_compliance;  // infinite where there is no link
+  PackedNodes::Lane m_restLength;      // of each lane; those of batches come after those of runs
+  PackedNodes::Lane m_compliance;      // infinite where there is no link
+  btScalar m_h = 0;                    // what follows is for [s]
+  PackedNodes::Lane m_perRestSquared;  // [1/m^2]
+  PackedNodes::Lane m_softness;        // 1 / (k h^2) [1/kg]
   std::size_t m_firstBatchLane = 0;
   std::size_t m_inRuns = 0;
-  std::vector<Corner> m_corners;  // the nodes, one after the other, for batches
+  // For batches: the nodes, one after the other, and the inverse masses of the links' ends, by lane.
+  std::vector<Corner> m_corners;
+  PackedNodes::Lane m_inverseMass[2];
 };
 
 }  // namespace WETCLOTH_PRECISION

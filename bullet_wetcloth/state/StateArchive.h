@@ -80,8 +80,8 @@ class WETCLOTH_EXPORT StateArchive {
   void local(btVector3& value) { bytes(value.m_floats, 3 * sizeof(btScalar), Target::scratch); }
 
   /// All numbers of an array whose length is that of the object here.
-  template <class T>
-  void array(std::vector<T>& values) {
+  template <class T, class Allocator>
+  void array(std::vector<T, Allocator>& values) {
     each(values, [this](T& element) { value(element); });
   }
   /// The same for elements of a structure: transfer(T&) names the parts of each.
