@@ -11,6 +11,7 @@
 #include "command/run/RunReport.h"
 #include "command/scene/SceneOptions.h"
 #include "command/scene/SceneWorld.h"
+#include "command/scene/SolverOption.h"
 #include "command/scene/SoundState.h"
 
 #include <algorithm>
@@ -201,6 +202,7 @@ Command addRunCommand(CLI::App& line) {
                   "The same for an error of your own, e.g. 1e-2, in all that the scene's effects were measured by");
   addCheckpointOptions(*app, *options, frames);
   addDuration(*app, *options);
+  addSolver(*app, options->solver);
   addScenePrecision(*app, *options);
   return {app, [options] { runScene(*options); }, [options] { return wishOf(*options); }};
 }

@@ -5,6 +5,7 @@
 #include "command/cli/Errors.h"
 #include "command/scene/Quality.h"
 #include "command/scene/SceneReader.h"
+#include "command/scene/SolverOption.h"
 
 #include <cstdio>
 
@@ -74,6 +75,7 @@ PreparedScene prepareScene(const SceneOptions& options) {
   if (options.duration) requireDuration(*options.duration, scene.step);
   tellHints(scene);
   if (options.duration) scene.duration = *options.duration;
+  applySolver(options.solver, scene.world, scene.clothSolver);
   if (!options.quality.empty()) scene.quality = options.quality;
   std::optional<SteppingChoice> stepping = chooseStepping(options, scene);
   return {std::move(scene), std::move(stepping)};

@@ -10,6 +10,7 @@
 #include "command/cli/StagedOutput.h"
 #include "command/run/StateHash.h"
 #include "command/scene/SceneOptions.h"
+#include "command/scene/SolverOption.h"
 
 #include <cstdio>
 #include <memory>
@@ -109,6 +110,7 @@ command::Command addViewCommand(CLI::App& line) {
   app->add_flag("--paused", options->paused, "Begin paused");
   app->add_flag("--compare", options->compare, "Begin with plain Bullet beside the wet cloth");
   addQuality(*app, *options, "Substeps and iterations, as for `wetcloth run`; the window changes both");
+  command::addSolver(*app, options->solver);
   addScenePrecision(*app, *options);
   app->add_option("--frames", options->frames, "Close the window after so many pictures, one step of the scene each");
   app->add_option("--screenshot", options->screenshot, "File for the window's last picture, .png");

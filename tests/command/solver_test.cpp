@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -136,6 +138,72 @@ TEST(RunSolver, ACheckpointIsRefused) {
   const std::string state = directory.path("run.state");
   expectRefusal(run(hangingScene(), {"--checkpoint", state, "--json", "-"}), {"--checkpoint", state, "solver"});
   runScene(hangingScene("bullet"), {"--checkpoint", state, "--every", "5"});
+}
+
+TEST(RunSolver, TheOptionOverrulesTheScene) {
+  const std::string onBullets = runScene(hangingScene("bullet")).at("state_hash");
+  const std::string onOurs = runScene(hangingScene("wetcloth")).at("state_hash");
+  const auto hashOf = [](const Json& scene, const char* solver) {
+    const Json result = runScene(scene, {"--solver", solver});
+    EXPECT_EQ(result.at("solver"), solver);
+    return result.at("state_hash").get<std::string>();
+  };
+  EXPECT_EQ(hashOf(hangingScene("bullet"), "wetcloth"), onOurs);
+  EXPECT_EQ(hashOf(hangingScene("wetcloth"), "bullet"), onBullets);
+  EXPECT_EQ(hashOf(hangingScene({{"small_steps", 20}}), "bullet"), onBullets);
+  const Json numbers = {{"small_steps", 20}, {"stiffness_n_m", 50}};
+  EXPECT_EQ(hashOf(hangingScene(numbers), "wetcloth"), runScene(hangingScene(numbers)).at("state_hash"));
+}
+
+TEST(RunSolver, TheOptionIsRefusedInTheDeformableWorld) {
+  Json scene = hangingScene("bullet");
+  scene["world"] = "deformable";
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("scene.json", scene.dump());
+  const std::string page = directory.path("run.html");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"run", file},
+                                                {"cost", file},
+                                                {"render", file, "--out", page},
+                                                {"export", file, "--format", "html", "--out", page}}) {
+    std::vector<std::string> arguments = words;
+    arguments.insert(arguments.end(), {"--solver", "wetcloth", "--precision", testedPrecision()});
+    expectRefusal(runWetcloth(arguments), {"--solver = \"wetcloth\"", "\"bullet\"", "deformable"});
+  }
+  EXPECT_EQ(run(scene, {"--solver", "bullet"}).status, 0);
+}
+
+TEST(RunSolver, AnotherWordIsRefused) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("scene.json", smallScene().dump());
+  for (const char* command : {"run", "cost", "view"}) {
+    expectRefusal(runWetcloth({command, file, "--solver", "wetcloht"}), {"--solver", "\"wetcloht\"", "\"wetcloth\""});
+  }
+  expectRefusal(runWetcloth({"fall", "--solver", "bulet"}), {"--solver", "\"bulet\"", "\"bullet\""});
+}
+
+TEST(RunSolver, APageShowsWhatTheSolverDid) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("scene.json", hangingScene("bullet").dump());
+  const auto pageOf = [&](const std::vector<std::string>& more) {
+    const std::string page = directory.path("run.html");
+    std::vector<std::string> words{"render", file, "--out", page, "--precision", testedPrecision()};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(runWetcloth(words).status, 0);
+    std::ifstream stream(page, std::ios::binary);
+    return std::string((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  };
+  const std::string onBullets = pageOf({});
+  EXPECT_EQ(pageOf({"--solver", "bullet"}), onBullets);
+  EXPECT_NE(pageOf({"--solver", "wetcloth"}), onBullets);
+}
+
+TEST(RunSolver, ACheckpointOfTheOtherIsRefused) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("scene.json", hangingScene("bullet").dump());
+  const std::string state = directory.path("run.state");
+  runScene(file, {"--checkpoint", state, "--every", "5"});
+  expectRefusal(runWetcloth({"run", file, "--solver", "wetcloth", "--resume", state, "--precision", testedPrecision()}),
+                {"--resume", state, "solver", "\"bullet\"", "\"wetcloth\""});
 }
 
 }  // namespace
