@@ -19,6 +19,14 @@ const NamedValues<SolverKind>& solverNames() {
   return names;
 }
 
+void choose(SolverKind solver, std::optional<wetcloth::ClothSolver::Parameters>& chosen) {
+  if (solver == SolverKind::bullet) {
+    chosen.reset();
+  } else if (!chosen) {
+    chosen.emplace();
+  }
+}
+
 bool ClothScene::hasEffect(const std::string& key) const {
   return std::any_of(effects.begin(), effects.end(), [&](const EffectScene& effect) { return effect.key == key; });
 }

@@ -24,6 +24,8 @@ std::string nameOf(WorldKind world);
 enum class SolverKind { bullet, wetcloth };
 const NamedValues<SolverKind>& solverNames();
 std::string nameOf(SolverKind solver);
+/// Takes that one; where ours was taken before, its numbers stay. None: Bullet's own.
+void choose(SolverKind solver, std::optional<wetcloth::ClothSolver::Parameters>& chosen);
 
 /// Springs of Bullet's deformable world, btDeformableMassSpringForce; its other worlds do not read them.
 struct DeformableSprings {

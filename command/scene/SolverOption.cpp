@@ -12,14 +12,11 @@ void addSolver(CLI::App& app, std::string& solver, const std::string& explanatio
 
 void applySolver(const std::string& solver, WorldKind world, std::optional<wetcloth::ClothSolver::Parameters>& chosen) {
   if (solver.empty()) return;
-  if (valueOf(solverNames(), solver) == SolverKind::bullet) {
-    chosen.reset();
-    return;
-  }
-  if (world == WorldKind::deformable) {
+  const SolverKind kind = valueOf(solverNames(), solver);
+  if (kind == SolverKind::wetcloth && world == WorldKind::deformable) {
     throw InputError("wetcloth: --solver = \"" + solver + "\": must be \"bullet\" in the world \"deformable\"");
   }
-  if (!chosen) chosen.emplace();
+  choose(kind, chosen);
 }
 
 }  // namespace command

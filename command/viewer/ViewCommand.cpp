@@ -69,6 +69,7 @@ nlohmann::ordered_json jsonOf(const LiveScene& live, const PlayerReport& report)
   nlohmann::ordered_json json;
   json["scene"] = live.scene().name;
   json["precision"] = command::nameOf(command::ownPrecision);
+  json["solver"] = command::nameOf(live.scene().solver());
   json["time_s"] = live.time();
   json["steps"] = live.steps();
   json["frames"] = report.frames;
