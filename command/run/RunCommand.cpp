@@ -176,7 +176,7 @@ void runScene(const RunOptions& options) {
   run.finish();
   smallSteps.finish();
   RunReport report(run.world(), run.times(), run.drips());
-  if (prepared.stepping) report.explain(*prepared.stepping);
+  if (prepared.stepping && !scene.clothSolver) report.explain(*prepared.stepping);
   output.write(report.json());
   if (output.ownsStandardOutput()) return;
   std::fputs(report.summary().c_str(), stdout);

@@ -206,5 +206,17 @@ TEST(RunSolver, ACheckpointOfTheOtherIsRefused) {
                 {"--resume", state, "solver", "\"bullet\"", "\"wetcloth\""});
 }
 
+// Errors were measured on Bullet's solver: they say nothing about the other one.
+TEST(RunSolver, NoErrorsAreExpectedOfWhatWasNotMeasured) {
+  const Json bullets = runScene(hangingScene("bullet"), {"--quality", "draft"});
+  EXPECT_TRUE(bullets.contains("expected_errors"));
+  const Json ours = runScene(hangingScene(), {"--quality", "draft"});
+  EXPECT_EQ(ours.at("substeps"), bullets.at("substeps"));
+  EXPECT_FALSE(ours.contains("expected_errors"));
+  EXPECT_EQ(run(hangingScene()).out.find("measured error"), std::string::npos);
+  expectRefusal(run(hangingScene(), {"--error-budget", "0.5", "--json", "-"}),
+                {"--error-budget = 0.5", "solver wetcloth"});
+}
+
 }  // namespace
 }  // namespace wetcloth_test::solver_test
