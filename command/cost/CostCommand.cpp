@@ -10,6 +10,7 @@
 #include "command/cost/CostScene.h"
 #include "command/scene/SceneOptions.h"
 #include "command/scene/SceneReader.h"
+#include "command/scene/SolverOption.h"
 
 #include <algorithm>
 #include <chrono>
@@ -23,6 +24,7 @@ namespace {
 
 struct CostOptions {
   std::string scene;         ///< empty: the built-in one
+  std::string solver;        ///< empty: as the scene says
   std::string precision;     ///< empty: as the scene says
   std::optional<int> steps;  ///< of Bullet, measured in each world; none: as many as fit into some seconds
   std::string json;
@@ -39,6 +41,7 @@ PrecisionWish precisionOf(const CostOptions& options) {
 Scene sceneOf(const CostOptions& options) {
   Scene scene = options.scene.empty() ? costScene() : readScene(options.scene);
   tellHints(scene);
+  applySolver(options.solver, scene.world, scene.clothSolver);
   // An effect acts once in each of Bullet's steps, however many of them the scene calls one.
   scene.step /= scene.substeps;
   scene.substeps = 1;
@@ -78,6 +81,8 @@ Command addCostCommand(CLI::App& line) {
   app->add_option("scene", options->scene, "Scene file; default is a cloth of 64 x 64 nodes with every effect");
   app->add_option("--steps", options->steps,
                   "Bullet's steps to measure in each world; default is what 8 s allow, at most 300");
+  addSolver(*app, options->solver,
+            "Who steps the cloths, instead of the scene's choice, with its numbers; plain Bullet stays on its own");
   addPrecision(*app, options->precision, "Instead of the scene's own");
   addJson(*app, options->json);
   return {app, [options] { measureCost(*options); }, [options] { return precisionOf(*options); }};

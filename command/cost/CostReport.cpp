@@ -76,6 +76,7 @@ nlohmann::ordered_json CostReport::json() const {
   json["scene"] = scene.name;
   json["world"] = nameOf(scene.world);
   json["precision"] = nameOf(ownPrecision);
+  json["solver"] = nameOf(scene.solver());
   json["nodes"] = m_run.nodes();
   json["steps"] = m_run.steps();
   json["dt"] = scene.step;
@@ -87,7 +88,7 @@ nlohmann::ordered_json CostReport::json() const {
   json["no_effects_ratio"] = m_idleRatio.median;
   json["no_effects_percent"] = idlePercent().isBelowNoise() ? 0 : std::max(0.0, 100 * (m_idleRatio.median - 1));
   json["no_effects_noise_percent"] = idlePercent().noise;
-  json["no_effects_same_state"] = m_run.isIdleSameAsPlain();
+  if (!scene.clothSolver) json["no_effects_same_state"] = m_run.isIdleSameAsPlain();
   json["all_effects_ns_per_node"] = nanosecondsPerNode(m_all.ours.median);
   json["all_effects_percent"] = oursPercent(m_all).value;
   json["all_effects_whole_step_percent"] = wholePercent(m_all).value;
@@ -111,7 +112,9 @@ std::string CostReport::head() const {
                 "scene", scene.name.c_str(), nameOf(scene.world).c_str(), nameOf(ownPrecision).c_str(), m_run.nodes(),
                 "steps", m_run.steps(), scene.step, scene.iterations, m_run.worlds(), "plain Bullet",
                 nanosecondsPerNode(m_bullet), 1e3 * m_bullet, "no effects", m_idleRatio.median, difference,
-                m_run.isIdleSameAsPlain() ? "the same state" : "ANOTHER STATE");
+                scene.clothSolver           ? "on the solver wetcloth"
+                : m_run.isIdleSameAsPlain() ? "the same state"
+                                            : "ANOTHER STATE");
   return text;
 }
 

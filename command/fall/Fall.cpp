@@ -87,8 +87,9 @@ double FallMode::closedFormFallen(const Case& fall, double time) const {
                            terminalSpeed(arealDensity, fallGravity, air.airDensity, air.dragCoefficient));
 }
 
-FallResult fall(const FallMode& mode, const FallMode::Case& fallCase, double height, WorldKind kind) {
-  FallingCloth cloth(mode, fallCase, kind);
+FallResult fall(const FallMode& mode, const FallMode::Case& fallCase, double height, WorldKind kind,
+                const std::optional<wetcloth::ClothSolver::Parameters>& clothSolver) {
+  FallingCloth cloth(mode, fallCase, kind, clothSolver);
   FallResult result{fallCase.name, fallCase.massRatio, 0, mode.closedForm(fallCase, height), 0};
   const auto start = std::chrono::steady_clock::now();
   result.time = timeToFall(cloth, height, 2 * result.closedForm + 1);

@@ -3,6 +3,7 @@
 
 #include "command/scene/Scene.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,9 @@ struct FallResult {
 };
 
 /// Lets a level cloth of 32 x 32 nodes fall, until its centre of mass has fallen `height`.
+/// @param clothSolver  steps it, but in plain Bullet; none: Bullet's own
 /// Throws RunError when it never does.
-FallResult fall(const FallMode& mode, const FallMode::Case& fallCase, double height, WorldKind kind);
+FallResult fall(const FallMode& mode, const FallMode::Case& fallCase, double height, WorldKind kind,
+                const std::optional<wetcloth::ClothSolver::Parameters>& clothSolver = std::nullopt);
 
 }  // namespace command

@@ -7,6 +7,7 @@
 #include "command/cli/Progress.h"
 #include "command/fall/Fall.h"
 #include "command/scene/Scene.h"
+#include "command/scene/SolverOption.h"
 
 #include <cmath>
 #include <cstdio>
@@ -21,6 +22,7 @@ struct FallOptions {
   std::optional<double> height;  ///< [m]; none: the mode's own
   std::string mode = "paper";
   std::string world = "soft_rigid";
+  std::string solver = "bullet";
   std::string precision;  ///< empty: this program's
   std::string json;
 };
@@ -47,9 +49,10 @@ nlohmann::ordered_json jsonOf(const std::vector<FallResult>& results) {
   return cases;
 }
 
-void printTable(const std::vector<FallResult>& results, const FallMode& mode, double height, const std::string& world) {
-  std::printf("A level cloth of 32 x 32 nodes falls %g m (%s mode, %s, %s, substeps of 1/240 s).\n\n", height,
-              mode.name.c_str(), world.c_str(), nameOf(ownPrecision).c_str());
+void printTable(const std::vector<FallResult>& results, const FallMode& mode, double height, const std::string& world,
+                const std::string& solver) {
+  std::printf("A level cloth of 32 x 32 nodes falls %g m (%s mode, %s, solver %s, %s, substeps of 1/240 s).\n\n",
+              height, mode.name.c_str(), world.c_str(), solver.c_str(), nameOf(ownPrecision).c_str());
   std::printf("%-10s  %12s  %9s  %13s  %10s  %9s\n", "case", "mass wet/dry", "time", "closed form", "error",
               "frames/s");
   for (const FallResult& result : results) {
@@ -63,22 +66,25 @@ void compareFalls(const FallOptions& options) {
   const FallMode mode = options.mode == "paper" ? FallMode::paper() : FallMode::physical();
   const double height = heightOf(options, mode);
   const WorldKind world = valueOf(worldNames(), options.world);
+  std::optional<wetcloth::ClothSolver::Parameters> clothSolver;
+  applySolver(options.solver, world, clothSolver);
   JsonOutput output(options.json);
   std::vector<FallResult> results;
   {
     Progress progress("falling");
     for (const FallMode::Case& fallCase : mode.cases) {
-      results.push_back(fall(mode, fallCase, height, world));
+      results.push_back(fall(mode, fallCase, height, world, clothSolver));
       progress.update(static_cast<double>(results.size()) / static_cast<double>(mode.cases.size()));
     }
   }
   output.write({{"mode", mode.name},
                 {"height_m", height},
                 {"world", options.world},
+                {"solver", options.solver},
                 {"precision", nameOf(ownPrecision)},
                 {"dt", fallSubstep},
                 {"cases", jsonOf(results)}});
-  if (!output.ownsStandardOutput()) printTable(results, mode, height, options.world);
+  if (!output.ownsStandardOutput()) printTable(results, mode, height, options.world, options.solver);
 }
 
 }  // namespace
@@ -94,6 +100,7 @@ Command addFallCommand(CLI::App& line) {
   app->add_option("--world", options->world, "Which of Bullet's worlds")
       ->check(oneOf("--world", namesOf(worldNames())))
       ->capture_default_str();
+  addSolver(*app, options->solver, "Who steps the cloth, but in plain Bullet; wetcloth in the first two worlds");
   addPrecision(*app, options->precision);
   addJson(*app, options->json);
   return {app, [options] { compareFalls(*options); }, [options] { return wishOf(options->precision); }};

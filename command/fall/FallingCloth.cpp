@@ -48,17 +48,20 @@ void liftByOneMetre(btSoftBody& body) {
   body.updateBounds();
 }
 
-BulletWorld::Settings settingsOf(WorldKind kind) {
+BulletWorld::Settings settingsOf(WorldKind kind, const FallMode::Case& fallCase,
+                                 const std::optional<wetcloth::ClothSolver::Parameters>& clothSolver) {
   BulletWorld::Settings settings;
   settings.kind = kind;
+  if (fallCase.inAir) settings.clothSolver = clothSolver;
   settings.gravity = btVector3(0, btScalar(-fallGravity), 0);
   return settings;
 }
 
 }  // namespace
 
-FallingCloth::FallingCloth(const FallMode& mode, const FallMode::Case& fallCase, WorldKind kind)
-    : m_world(settingsOf(kind)) {
+FallingCloth::FallingCloth(const FallMode& mode, const FallMode::Case& fallCase, WorldKind kind,
+                           const std::optional<wetcloth::ClothSolver::Parameters>& clothSolver)
+    : m_world(settingsOf(kind, fallCase, clothSolver)) {
   wetcloth::ClothPatch patch;  // its nodes are 1/32 m apart, which is exact: rounding would seed crumples
   patch.edgeU = btVector3(btScalar(31.0 / 32), 0, 0);
   patch.edgeV = btVector3(0, 0, btScalar(-31.0 / 32));

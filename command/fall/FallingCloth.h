@@ -12,7 +12,9 @@ namespace command {
 /// A level cloth of 32 x 32 nodes that falls from rest.
 class FallingCloth {
  public:
-  FallingCloth(const FallMode& mode, const FallMode::Case& fallCase, WorldKind kind);
+  /// @param clothSolver  steps it, but in plain Bullet; none: Bullet's own
+  FallingCloth(const FallMode& mode, const FallMode::Case& fallCase, WorldKind kind,
+               const std::optional<wetcloth::ClothSolver::Parameters>& clothSolver = std::nullopt);
 
   /// One of fallSubstep.
   void substep();

@@ -29,4 +29,11 @@ inline void putFloat(std::string& bytes, float value) {
   putUint32(bytes, bits);
 }
 
+inline void putDouble(std::string& bytes, double value) {
+  std::uint64_t bits = 0;
+  static_assert(sizeof bits == sizeof value, "IEEE 754 double precision");
+  std::memcpy(&bits, &value, sizeof bits);
+  putUint64(bytes, bits);
+}
+
 }  // namespace pictures

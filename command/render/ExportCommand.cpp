@@ -7,6 +7,7 @@
 #include "command/cli/StagedOutput.h"
 #include "command/render/SampleRun.h"
 #include "command/scene/SceneOptions.h"
+#include "command/scene/SolverOption.h"
 
 #include "command/pictures/HtmlPage.h"
 #include "command/pictures/ObjFile.h"
@@ -152,6 +153,7 @@ Command addExportCommand(CLI::App& line) {
   app->add_option("--fps", options->framesPerSecond, "Frames per simulated second")->capture_default_str();
   addDuration(*app, *options);
   addQuality(*app, *options);
+  addSolver(*app, options->solver);
   addScenePrecision(*app, *options);
   addJson(*app, options->json, "what was written");
   return {app, [options] { exportScene(*options); }, [options] { return wishOf(*options); }};

@@ -12,6 +12,7 @@
 #include "command/render/SampleRun.h"
 #include "command/scene/DryScene.h"
 #include "command/scene/SceneOptions.h"
+#include "command/scene/SolverOption.h"
 
 #include "command/pictures/HtmlPage.h"
 #include "command/pictures/Unavailable.h"
@@ -257,6 +258,7 @@ Command addRenderCommand(CLI::App& line) {
   app->add_flag("--compare", options->compare, "Plain Bullet, the dry scene and the wet one side by side");
   addDuration(*app, *options);
   addQuality(*app, *options);
+  addSolver(*app, options->solver);
   addScenePrecision(*app, *options);
   addJson(*app, options->json, "what was drawn");
   return {app, [options] { renderScene(*options); }, [options] { return wishOf(*options); }};

@@ -80,6 +80,7 @@ nlohmann::ordered_json runIdentity(const Scene& scene, int steps) {
           {"quality", qualityOf(scene)},
           {"substeps", scene.substeps},
           {"iterations", scene.iterations},
+          {"solver", nameOf(scene.solver())},
           {"steps", steps},
           {"scene", hashOf(scene)}};
 }

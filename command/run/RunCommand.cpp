@@ -9,8 +9,10 @@
 #include "command/run/DripRecord.h"
 #include "command/run/FrameWriter.h"
 #include "command/run/RunReport.h"
+#include "command/run/SmallStepFile.h"
 #include "command/scene/SceneOptions.h"
 #include "command/scene/SceneWorld.h"
+#include "command/scene/SolverOption.h"
 #include "command/scene/SoundState.h"
 
 #include <algorithm>
@@ -32,14 +34,15 @@ struct RunOptions : SceneOptions {
   std::string checkpoint;  ///< file; empty: none
   int every = 100;         ///< steps of the scene from one checkpoint to the next
   std::string resume;      ///< file; empty: from the start
+  std::string smallSteps;  ///< file; empty: none
 };
 
 /// The wall clock's time of a world's steps: of those that this program made, for a checkpoint holds no times.
 class StepTime {
  public:
-  void step(SceneWorld& world) {
+  void step(SceneWorld& world, const SceneWorld::BeforeSubstep& before = {}) {
     const auto start = std::chrono::steady_clock::now();
-    world.step();
+    world.step(before);
     m_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ++m_steps;
   }
@@ -61,10 +64,15 @@ class Run {
   const DripRecord& drips() const { return m_drips; }
   int steps() const { return m_steps; }
   void finish() { m_wet.finish(); }
+  /// From the next step on.
+  void writeSmallSteps(SmallStepFile& file) {
+    file.follow(m_wet);
+    m_beforeSubstep = [&file](btScalar) { file.beginSubstep(); };
+  }
   RunTimes times() const { return {m_steps, m_wetTime.meanMilliseconds(), m_plainTime.meanMilliseconds()}; }
 
   void step() {
-    m_wetTime.step(m_wet);
+    m_wetTime.step(m_wet, m_beforeSubstep);
     ++m_steps;
     requireSound(m_wet);
     m_drips.note(m_wet);
@@ -99,6 +107,7 @@ class Run {
   DripRecord m_drips;
   StepTime m_wetTime;
   StepTime m_plainTime;
+  SceneWorld::BeforeSubstep m_beforeSubstep;
   int m_steps = 0;
 };
 
@@ -142,21 +151,32 @@ void requireOptions(const RunOptions& options) {
   }
 }
 
+// ClothSolver keeps places more exactly than the nodes have them, and only the nodes' are saved.
+void requireSavable(const RunOptions& options, const Scene& scene) {
+  if (options.checkpoint.empty() || !scene.clothSolver) return;
+  throw InputError(onOneLine("wetcloth: --checkpoint = \"" + options.checkpoint +
+                             "\": must be left out with the solver wetcloth, whose state is not saved"));
+}
+
 void runScene(const RunOptions& options) {
   requireOptions(options);
   const PreparedScene prepared = prepareScene(options);
   const Scene& scene = prepared.scene;
+  requireSavable(options, scene);
   JsonOutput output(options.json);
   const int steps = std::max(1, static_cast<int>(std::lround(scene.duration / scene.step)));
   FrameWriter frames(options.frames, options.frameCount, steps);
+  SmallStepFile smallSteps(options.smallSteps, scene);
   if (!options.checkpoint.empty()) requireCheckpointPlace(options.checkpoint);
   const nlohmann::ordered_json identity = runIdentity(scene, steps);
   Run run(scene, steps);
   if (!options.resume.empty()) resume(run, options.resume, identity);
+  run.writeSmallSteps(smallSteps);
   stepToEnd(run, steps, options, identity, frames);
   run.finish();
+  smallSteps.finish();
   RunReport report(run.world(), run.times(), run.drips());
-  if (prepared.stepping) report.explain(*prepared.stepping);
+  if (prepared.stepping && !scene.clothSolver) report.explain(*prepared.stepping);
   output.write(report.json());
   if (output.ownsStandardOutput()) return;
   std::fputs(report.summary().c_str(), stdout);
@@ -193,6 +213,9 @@ Command addRunCommand(CLI::App& line) {
                   "The same for an error of your own, e.g. 1e-2, in all that the scene's effects were measured by");
   addCheckpointOptions(*app, *options, frames);
   addDuration(*app, *options);
+  addSolver(*app, options->solver);
+  app->add_option("--small-steps", options->smallSteps,
+                  "File for the nodes' places after each small step of the solver wetcloth; see docs/scenes.md");
   addScenePrecision(*app, *options);
   return {app, [options] { runScene(*options); }, [options] { return wishOf(*options); }};
 }

@@ -48,6 +48,15 @@ RunReport::RunReport(const SceneWorld& world, const RunTimes& times, const DripR
   for (const auto& springs : world.springs()) {
     if (springs) m_springs.push_back(springs->stiffness);
   }
+  askSolver(world);
+}
+
+void RunReport::askSolver(const SceneWorld& world) {
+  if (world.clothSolver() == nullptr) return;
+  for (std::size_t i = 0; i < world.bodies().size(); ++i) {
+    const std::string reason = world.clothSolver()->reasonNotTaken(*world.bodies()[i]);
+    if (!reason.empty()) m_solverReasons.emplace_back("/cloths/" + std::to_string(i), reason);
+  }
 }
 
 void RunReport::measureBody(const btSoftBody& body) {
@@ -95,6 +104,9 @@ nlohmann::ordered_json RunReport::json() const {
   json["dt"] = m_scene.step;
   json["substeps"] = m_scene.substeps;
   json["iterations"] = m_scene.iterations;
+  json["solver"] = nameOf(m_scene.solver());
+  if (m_scene.clothSolver) json["small_steps"] = m_scene.clothSolver->smallSteps;
+  for (const auto& [cloth, reason] : m_solverReasons) json["solver_reasons"][cloth] = reason;
   if (m_stepping) {
     for (const SteppingChoice::Expectation& expectation : m_stepping->expected) {
       json["expected_errors"][expectation.study.study] = expectation.error;
@@ -149,6 +161,16 @@ std::string RunReport::steppingLine() const {
   return "measured error " + line + "\n";
 }
 
+std::string RunReport::solverLine() const {
+  if (!m_scene.clothSolver) return "";
+  std::string line =
+      "solver         wetcloth, " + std::to_string(m_scene.clothSolver->smallSteps) + " small steps in each substep\n";
+  for (const auto& [cloth, reason] : m_solverReasons) {
+    line += "               Bullet's own steps " + cloth + ": " + reason + "\n";
+  }
+  return line;
+}
+
 std::string RunReport::springsLine() const {
   if (m_springs.empty()) return "";
   std::string line;
@@ -189,7 +211,7 @@ std::string RunReport::summary() const {
       m_times.plainMilliseconds > 0 ? m_times.wetMilliseconds / m_times.plainMilliseconds : 0., waterLines().c_str(),
       "saturation", m_saturation.min, m_saturation.max, m_saturation.mean, "centre of mass", m_moment[0] / m_mass,
       m_moment[1] / m_mass, m_moment[2] / m_mass, "largest", m_maxSpeed, m_maxStretch, "state hash", m_hash.c_str());
-  return text + springsLine() + steppingLine() + auditLine();
+  return text + solverLine() + springsLine() + steppingLine() + auditLine();
 }
 
 }  // namespace command

@@ -10,6 +10,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace command {
@@ -35,9 +36,11 @@ class RunReport {
  private:
   void measureBody(const btSoftBody& body);
   void measureCloth(const wetcloth::WetCloth& cloth);
+  void askSolver(const SceneWorld& world);
   std::string waterLines() const;
   std::string auditLine() const;
   std::string steppingLine() const;
+  std::string solverLine() const;
   std::string springsLine() const;
 
   const Scene& m_scene;
@@ -55,6 +58,8 @@ class RunReport {
   double m_mass = 0;
   double m_maxSpeed = 0;
   double m_maxStretch = 0;
+  /// Why ClothSolver did not take a cloth, by its pointer in the scene.
+  std::vector<std::pair<std::string, std::string>> m_solverReasons;
   std::vector<double> m_springs;  // stiffness of Bullet's own, where cloths have them [N/m]
 };
 

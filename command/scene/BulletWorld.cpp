@@ -22,6 +22,7 @@ BulletWorld::BulletWorld(const Settings& settings)
       m_configuration(std::make_unique<btSoftBodyRigidBodyCollisionConfiguration>()),
       m_dispatcher(std::make_unique<btCollisionDispatcher>(m_configuration.get())),
       m_broadphase(std::make_unique<btDbvtBroadphase>()) {
+  if (settings.clothSolver) m_clothSolver = std::make_unique<wetcloth::ClothSolver>(*settings.clothSolver);
   if (settings.kind == WorldKind::softRigid) makeSoftRigid();
   if (settings.kind == WorldKind::softMultiBody) makeSoftMultiBody();
   if (settings.kind == WorldKind::deformable) makeDeformable();
@@ -42,7 +43,7 @@ BulletWorld::~BulletWorld() {
 void BulletWorld::makeSoftRigid() {
   m_solver = std::make_unique<btSequentialImpulseConstraintSolver>();
   auto world = std::make_unique<btSoftRigidDynamicsWorld>(m_dispatcher.get(), m_broadphase.get(), m_solver.get(),
-                                                          m_configuration.get());
+                                                          m_configuration.get(), m_clothSolver.get());
   m_worldInfo = &world->getWorldInfo();
   m_addSoftBody = [own = world.get()](btSoftBody* body) { own->addSoftBody(body); };
   m_removeSoftBody = [own = world.get()](btSoftBody* body) { own->removeSoftBody(body); };
@@ -52,7 +53,7 @@ void BulletWorld::makeSoftRigid() {
 void BulletWorld::makeSoftMultiBody() {
   auto solver = std::make_unique<btMultiBodyConstraintSolver>();
   auto world = std::make_unique<btSoftMultiBodyDynamicsWorld>(m_dispatcher.get(), m_broadphase.get(), solver.get(),
-                                                              m_configuration.get());
+                                                              m_configuration.get(), m_clothSolver.get());
   m_solver = std::move(solver);
   m_worldInfo = &world->getWorldInfo();
   m_addSoftBody = [own = world.get()](btSoftBody* body) { own->addSoftBody(body); };

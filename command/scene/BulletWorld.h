@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 class btDeformableBodySolver;
@@ -23,6 +24,8 @@ class BulletWorld {
     btVector3 gravity = btVector3(0, btScalar(-9.81), 0);
     int iterations = 10;    ///< of the soft bodies' position solver, and of the contacts' solver
     bool implicit = false;  ///< of the deformable world
+    /// None: soft bodies are stepped by Bullet's own solver. Not in the deformable world.
+    std::optional<wetcloth::ClothSolver::Parameters> clothSolver;
   };
 
   explicit BulletWorld(const Settings& settings);
@@ -31,6 +34,9 @@ class BulletWorld {
   BulletWorld& operator=(const BulletWorld&) = delete;
 
   btDiscreteDynamicsWorld& world() { return *m_world; }
+  /// Null: Bullet's own solver.
+  wetcloth::ClothSolver* clothSolver() { return m_clothSolver.get(); }
+  const wetcloth::ClothSolver* clothSolver() const { return m_clothSolver.get(); }
   btSoftBodyWorldInfo& worldInfo() { return *m_worldInfo; }
 
   /// The library's world on it, made when it is first asked for: a world that never is runs in Bullet alone.
@@ -57,6 +63,7 @@ class BulletWorld {
   std::unique_ptr<btBroadphaseInterface> m_broadphase;
   std::unique_ptr<btDeformableBodySolver> m_deformableSolver;
   std::unique_ptr<btConstraintSolver> m_solver;
+  std::unique_ptr<wetcloth::ClothSolver> m_clothSolver;
   std::unique_ptr<btDiscreteDynamicsWorld> m_world;
   btSoftBodyWorldInfo* m_worldInfo = nullptr;
   std::function<void(btSoftBody*)> m_addSoftBody;

@@ -14,6 +14,19 @@ const NamedValues<WorldKind>& worldNames() {
   return names;
 }
 
+const NamedValues<SolverKind>& solverNames() {
+  static const NamedValues<SolverKind> names{{"bullet", SolverKind::bullet}, {"wetcloth", SolverKind::wetcloth}};
+  return names;
+}
+
+void choose(SolverKind solver, std::optional<wetcloth::ClothSolver::Parameters>& chosen) {
+  if (solver == SolverKind::bullet) {
+    chosen.reset();
+  } else if (!chosen) {
+    chosen.emplace();
+  }
+}
+
 bool ClothScene::hasEffect(const std::string& key) const {
   return std::any_of(effects.begin(), effects.end(), [&](const EffectScene& effect) { return effect.key == key; });
 }
@@ -62,5 +75,6 @@ double ClothScene::fastestPush() const {
 btVector3 Scene::up() const { return gravity.length() > 0 ? btVector3(-gravity.normalized()) : btVector3(0, 1, 0); }
 
 std::string nameOf(WorldKind world) { return nameIn(worldNames(), world); }
+std::string nameOf(SolverKind solver) { return nameIn(solverNames(), solver); }
 
 }  // namespace command

@@ -20,6 +20,13 @@ enum class WorldKind { softRigid, softMultiBody, deformable };
 const NamedValues<WorldKind>& worldNames();
 std::string nameOf(WorldKind world);
 
+/// Who steps the cloths.
+enum class SolverKind { bullet, wetcloth };
+const NamedValues<SolverKind>& solverNames();
+std::string nameOf(SolverKind solver);
+/// Takes that one; where ours was taken before, its numbers stay. None: Bullet's own.
+void choose(SolverKind solver, std::optional<wetcloth::ClothSolver::Parameters>& chosen);
+
 /// Springs of Bullet's deformable world, btDeformableMassSpringForce; its other worlds do not read them.
 struct DeformableSprings {
   double stiffness = 100;       ///< [N/m]
@@ -129,6 +136,7 @@ struct Scene {
   int iterations = 10;
   double duration = 5;  ///< [s]
   bool implicit = false;
+  std::optional<wetcloth::ClothSolver::Parameters> clothSolver;  ///< none: Bullet's own solver
   std::string quality;  ///< a name of qualityNames(); empty: substeps and iterations as they are here
   std::vector<ClothScene> cloths;
   std::vector<Collider> colliders;
@@ -136,6 +144,7 @@ struct Scene {
   CameraScene camera;
   std::vector<std::string> hints;  ///< what is allowed and rarely meant, one line each
 
+  SolverKind solver() const { return clothSolver ? SolverKind::wetcloth : SolverKind::bullet; }
   /// Against gravity, of length 1; y without gravity.
   btVector3 up() const;
 };

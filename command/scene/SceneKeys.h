@@ -18,7 +18,9 @@ namespace keys {
 inline const KeyTable scene{
     "scene",
     {"$schema", "name", "description", "world", "precision", "gravity_m_s2", "step_s", "substeps", "iterations",
-     "duration_s", "implicit", "quality", "cloths", "colliders", "water", "camera"}};
+     "duration_s", "implicit", "solver", "quality", "cloths", "colliders", "water", "camera"}};
+
+inline const KeyTable solver{"solver", {"small_steps", "stiffness_n_m"}};
 
 inline const KeyTable cloth{"cloth",
                             {"name", "patch", "obj", "fabric", "pins", "initial_saturation", "water_pace", "friction",
@@ -60,9 +62,9 @@ inline const KeyTable sphere{"sphere", {"centre_m", "radius_m"}};
 inline const KeyTable camera{"camera", {"direction", "field_of_view_deg"}};
 
 /// But for those of effects, which stand in the catalogue.
-inline const std::vector<const KeyTable*> all{&scene,    &waterPace,     &obj,  &cloth,  &patch,  &fabric,
-                                              &pins,     &exposureBelow, &gust, &twist,  &motion, &water,
-                                              &collider, &plane,         &box,  &sphere, &camera};
+inline const std::vector<const KeyTable*> all{&scene,  &solver,   &waterPace,     &obj,  &cloth,  &patch,
+                                              &fabric, &pins,     &exposureBelow, &gust, &twist,  &motion,
+                                              &water,  &collider, &plane,         &box,  &sphere, &camera};
 
 }  // namespace keys
 }  // namespace command

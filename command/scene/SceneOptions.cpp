@@ -5,6 +5,7 @@
 #include "command/cli/Errors.h"
 #include "command/scene/Quality.h"
 #include "command/scene/SceneReader.h"
+#include "command/scene/SolverOption.h"
 
 #include <cstdio>
 
@@ -30,10 +31,19 @@ SteppingChoice steppingWithinBudget(const Scene& scene, double budget) {
   throw InputError(text);
 }
 
+/// Errors were measured on Bullet's own solver alone.
+void requireMeasured(const Scene& scene, double budget) {
+  if (!scene.clothSolver) return;
+  char text[120];
+  std::snprintf(text, sizeof text, "wetcloth: --error-budget = %g: must be left out with the solver wetcloth", budget);
+  throw InputError(text);
+}
+
 /// None when the scene decides by itself.
 std::optional<SteppingChoice> chooseStepping(const SceneOptions& options, Scene& scene) {
   std::optional<SteppingChoice> choice;
   if (options.errorBudget) {
+    requireMeasured(scene, *options.errorBudget);
     choice = steppingWithinBudget(scene, *options.errorBudget);
     scene.quality = "error budget";
   } else if (!scene.quality.empty()) {
@@ -74,6 +84,7 @@ PreparedScene prepareScene(const SceneOptions& options) {
   if (options.duration) requireDuration(*options.duration, scene.step);
   tellHints(scene);
   if (options.duration) scene.duration = *options.duration;
+  applySolver(options.solver, scene.world, scene.clothSolver);
   if (!options.quality.empty()) scene.quality = options.quality;
   std::optional<SteppingChoice> stepping = chooseStepping(options, scene);
   return {std::move(scene), std::move(stepping)};

@@ -18,6 +18,7 @@ struct SceneOptions {
   std::string scene;                  ///< file
   std::string quality;                ///< empty: as the scene says
   std::optional<double> errorBudget;  ///< instead of a quality [-]; none: as the quality says
+  std::string solver;                 ///< empty: as the scene says
   std::string precision;              ///< empty: as the scene says
   std::optional<double> duration;     ///< [s]; none: as the scene says
 };

@@ -367,6 +367,20 @@ CameraScene readCamera(JsonCursor cursor) {
   return camera;
 }
 
+/// None: Bullet's own.
+std::optional<wetcloth::ClothSolver::Parameters> readSolver(JsonCursor cursor) {
+  wetcloth::ClothSolver::Parameters parameters;
+  if (cursor.isText()) {
+    if (cursor.choice(solverNames()) == SolverKind::bullet) return std::nullopt;
+    return parameters;
+  }
+  if (!cursor.isObject()) cursor.reject("\"bullet\", \"wetcloth\", or an object with the numbers of the latter");
+  cursor.expectObject(keys::solver);
+  if (const auto count = cursor.find("small_steps")) parameters.smallSteps = count->integer(1, 1000);
+  readNumber(cursor, "stiffness_n_m", Range::positive(), parameters.stiffness);
+  return parameters;
+}
+
 Precision precisionAt(const JsonCursor& scene) {
   const auto precision = scene.find("precision");
   return precision ? precision->choice(precisionNames()) : Scene().precision;
@@ -392,6 +406,12 @@ void readWorld(const JsonCursor& cursor, Scene& scene) {
     scene.implicit = implicit->boolean();
     if (scene.implicit && scene.world != WorldKind::deformable) {
       implicit->complain("only the world \"deformable\" has an implicit solver");
+    }
+  }
+  if (const auto solver = cursor.find("solver")) {
+    scene.clothSolver = readSolver(*solver);
+    if (scene.clothSolver && scene.world == WorldKind::deformable) {
+      solver->reject("\"bullet\" in the world \"deformable\"");
     }
   }
 }

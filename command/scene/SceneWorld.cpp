@@ -18,8 +18,11 @@
 namespace command {
 namespace {
 
-BulletWorld::Settings settingsOf(const Scene& scene) {
-  return {scene.world, scene.gravity, scene.iterations, scene.implicit};
+/// Plain Bullet is stepped by its own solver.
+BulletWorld::Settings settingsOf(const Scene& scene, SceneWorld::Kind kind) {
+  BulletWorld::Settings settings{scene.world, scene.gravity, scene.iterations, scene.implicit, std::nullopt};
+  if (kind == SceneWorld::Kind::wet) settings.clothSolver = scene.clothSolver;
+  return settings;
 }
 
 std::unique_ptr<btSoftBody> makeBody(const ClothScene& cloth, btSoftBodyWorldInfo& worldInfo) {
@@ -47,7 +50,8 @@ constexpr double planeHalfExtent = 50;
 
 }  // namespace
 
-SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_drops(scene), m_world(settingsOf(scene)) {
+SceneWorld::SceneWorld(const Scene& scene, Kind kind)
+    : m_scene(scene), m_drops(scene), m_world(settingsOf(scene, kind)) {
   if (kind == Kind::wet) m_wetWorld = &m_world.wet();
   if (scene.water) addWater(*scene.water);
   for (const Collider& collider : scene.colliders) addCollider(collider);
@@ -174,9 +178,10 @@ void SceneWorld::finish() {
   for (wetcloth::CollisionAudit* audit : m_audits) audit->look();
 }
 
-/// Of springs that bear all the cloth with its water; links of Bullet's position solver do not give way.
+/// Of springs or soft links that bear all the cloth with its water; links of Bullet's position solver do not give way.
 double SceneWorld::sagOf(std::size_t cloth) const {
   double stiffness = m_springs[cloth] ? m_springs[cloth]->stiffness : 0;
+  if (clothSolver() != nullptr) stiffness = clothSolver()->parameters().stiffness;
   if (cloth < m_cloths.size()) {
     m_cloths[cloth]->forEach<wetcloth::HookeSprings>(
         [&](const wetcloth::HookeSprings& springs) { stiffness = springs.parameters().stiffness; });

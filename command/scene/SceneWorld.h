@@ -19,8 +19,8 @@ namespace command {
 /// A scene, ready to run.
 class SceneWorld {
  public:
-  /// The same scene with the library, or in Bullet alone: what it is compared with. There, cloths of the deformable
-  /// world have Bullet's own springs, those with `hooke_springs`, too.
+  /// The same scene with the library, or in Bullet alone: what it is compared with. There, Bullet's own solver steps
+  /// the cloths, and those of the deformable world have Bullet's own springs, those with `hooke_springs`, too.
   enum class Kind { wet, plainBullet };
 
   /// Throws InputError naming the file and the JSON pointer when the library refuses a cloth or an effect.
@@ -56,6 +56,9 @@ class SceneWorld {
   const Colliders& colliders() const { return m_colliders; }
   /// Bullet's own springs of each cloth; none outside the deformable world, or where `hooke_springs` hold a wet cloth.
   const std::vector<std::optional<DeformableSprings>>& springs() const { return m_springs; }
+  /// Null: Bullet's own solver steps the cloths.
+  wetcloth::ClothSolver* clothSolver() { return m_world.clothSolver(); }
+  const wetcloth::ClothSolver* clothSolver() const { return m_world.clothSolver(); }
   /// Whether all positions and velocities are finite.
   bool isFinite() const;
   /// "/cloths/0: node 7 moves with ...": what of the cloths has blown up; none while all are sound.

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <stdexcept>
 #include <utility>
 
 namespace viewer {
@@ -144,6 +145,7 @@ command::Scene LiveScene::equippedScene() {
   scene.substeps = m_scene.substeps;
   scene.iterations = m_scene.iterations;
   m_effects.equip(scene);
+  command::choose(solver(), scene.clothSolver);
   if (m_levers.fabric.empty()) return scene;
   for (command::ClothScene& cloth : scene.cloths) {
     const wetcloth::Fabric own = cloth.fabric;
@@ -289,9 +291,16 @@ void LiveScene::setFabric(const std::string& preset) {
   m_levers.fabric = preset;
 }
 
+void LiveScene::setSolver(command::SolverKind solver) {
+  if (solver == command::SolverKind::wetcloth && m_scene.world == command::WorldKind::deformable) {
+    throw std::invalid_argument("solver = wetcloth: must be bullet in the world deformable");
+  }
+  m_levers.solver = solver;
+}
+
 bool LiveScene::waitsForReset() const {
   const auto& switches = m_effects.list();
-  return m_fabricInUse != m_levers.fabric ||
+  return m_scene.solver() != solver() || m_fabricInUse != m_levers.fabric ||
          std::any_of(switches.begin(), switches.end(), [](const auto& each) { return each.waitsForReset; });
 }
 

@@ -92,6 +92,9 @@ class LiveScene {
   void setFabric(const std::string& preset);
   /// Empty: the scene's own.
   const std::string& fabric() const { return m_levers.fabric; }
+  /// Who steps the cloths, from the next reset on; plain Bullet stays on its own. The world "deformable" has only that.
+  void setSolver(command::SolverKind solver);
+  command::SolverKind solver() const { return m_levers.solver.value_or(m_original.solver()); }
   /// Whether something that was set waits for a reset.
   bool waitsForReset() const;
 
@@ -140,6 +143,7 @@ class LiveScene {
     std::optional<double> rainFlux;
     std::optional<btVector3> rainDirection;
     std::string fabric;
+    std::optional<command::SolverKind> solver;
   };
 
   command::Scene equippedScene();

@@ -162,7 +162,7 @@ void Panel::drawCosts(const LiveScene& live) {
   const double bullet = live.bulletMicroseconds();
   row("masses and links", microseconds(live.effects().commitMicroseconds()));
   row("the library in all", microseconds(library));
-  row("Bullet's own step", microseconds(bullet));
+  row(live.scene().clothSolver ? "Bullet's step, on ours" : "Bullet's own step", microseconds(bullet));
   row("the library on top", bullet > 0 ? text("%.1f %%", 100 * library / bullet) : "");
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("Time on the clock for one step of the scene, %d of Bullet's,\nover the last half second or so",
@@ -173,6 +173,7 @@ void Panel::drawCosts(const LiveScene& live) {
 void Panel::drawLevers(LiveScene& live) {
   ImGui::PushItemWidth(-0.34F * ImGui::GetWindowWidth());
   drawWeather(live);
+  drawSolver(live);
   drawFabric(live);
   drawQuality(live);
   ImGui::PopItemWidth();
@@ -219,6 +220,17 @@ bool Panel::drawRain(LiveScene& live) {
   const bool turned = ImGui::SliderFloat3("rain falls to", direction.data(), -1, 1, "%.2f");
   if (turned) live.setRainDirection(bulletVector(direction));
   return harder || turned;
+}
+
+void Panel::drawSolver(LiveScene& live) {
+  ImGui::BeginDisabled(live.scene().world == command::WorldKind::deformable);
+  if (ImGui::BeginCombo("solver", command::nameOf(live.solver()).c_str())) {
+    for (const auto& [name, solver] : command::solverNames()) {
+      if (ImGui::Selectable(name.c_str(), live.solver() == solver)) live.setSolver(solver);
+    }
+    ImGui::EndCombo();
+  }
+  ImGui::EndDisabled();
 }
 
 void Panel::drawFabric(LiveScene& live) {

@@ -42,6 +42,7 @@ class Panel {
   bool drawWind(LiveScene& live);  // whether it moved, as the next two
   bool drawExposure(LiveScene& live);
   bool drawRain(LiveScene& live);
+  void drawSolver(LiveScene& live);
   void drawFabric(LiveScene& live);
   void drawQuality(LiveScene& live);
   void drawPlots(const LiveScene& live);

@@ -10,6 +10,7 @@
 #include "command/cli/StagedOutput.h"
 #include "command/run/StateHash.h"
 #include "command/scene/SceneOptions.h"
+#include "command/scene/SolverOption.h"
 
 #include <cstdio>
 #include <memory>
@@ -68,6 +69,7 @@ nlohmann::ordered_json jsonOf(const LiveScene& live, const PlayerReport& report)
   nlohmann::ordered_json json;
   json["scene"] = live.scene().name;
   json["precision"] = command::nameOf(command::ownPrecision);
+  json["solver"] = command::nameOf(live.scene().solver());
   json["time_s"] = live.time();
   json["steps"] = live.steps();
   json["frames"] = report.frames;
@@ -109,6 +111,7 @@ command::Command addViewCommand(CLI::App& line) {
   app->add_flag("--paused", options->paused, "Begin paused");
   app->add_flag("--compare", options->compare, "Begin with plain Bullet beside the wet cloth");
   addQuality(*app, *options, "Substeps and iterations, as for `wetcloth run`; the window changes both");
+  command::addSolver(*app, options->solver);
   addScenePrecision(*app, *options);
   app->add_option("--frames", options->frames, "Close the window after so many pictures, one step of the scene each");
   app->add_option("--screenshot", options->screenshot, "File for the window's last picture, .png");

@@ -57,6 +57,29 @@ std::vector<BadScene> badScenes() {
       at("UnknownPrecision", "/precision", "float16", {"float32", "float64"}),
       at("ImplicitOutsideTheDeformableWorld", "/implicit", true, {"deformable"}),
       at("ImplicitAsNumber", "/implicit", 1, {"true or false"}),
+      at("UnknownSolver", "/solver", "wetcloht", {"\"wetcloth\"", "bullet"}),
+      at("SolverAsNumber", "/solver", 10, {"\"bullet\"", "\"wetcloth\"", "object"}),
+      at("SolverAsList", "/solver", {"wetcloth"}, {"\"bullet\"", "\"wetcloth\"", "object"}),
+      at("SolverOfNull", "/solver", nullptr, {"\"bullet\"", "\"wetcloth\"", "object"}),
+      at("SolverWithATypo", "/solver/smal_steps", 5, {"unknown key", "\"small_steps\""}),
+      at("NoSmallSteps", "/solver/small_steps", 0, {"whole number", "1 to 1000"}),
+      at("TooManySmallSteps", "/solver/small_steps", 1001, {"whole number", "1 to 1000"}),
+      at("HalfASmallStep", "/solver/small_steps", 2.5, {"whole number"}),
+      at("SolverStiffnessZero", "/solver/stiffness_n_m", 0, {"> 0"}),
+      at("SolverStiffnessNegative", "/solver/stiffness_n_m", -5, {"> 0"}),
+      at("SolverStiffnessAsText", "/solver/stiffness_n_m", "hard", {"must be a number"}),
+      {"SolverInTheDeformableWorld",
+       [](Json& scene) {
+         scene["world"] = "deformable";
+         scene["solver"] = "wetcloth";
+       },
+       {"/solver = \"wetcloth\"", "\"bullet\"", "deformable"}},
+      {"SolverWithNumbersInTheDeformableWorld",
+       [](Json& scene) {
+         scene["world"] = "deformable";
+         scene["solver"] = {{"small_steps", 5}};
+       },
+       {"/solver = {\"small_steps\":5}", "\"bullet\"", "deformable"}},
       at("DensityZero", "/cloths/0/fabric/areal_density_kg_m2", 0, {"> 0"}),
       at("DensityNegative", "/cloths/0/fabric/areal_density_kg_m2", -0.15, {"> 0"}),
       at("CapacityZero", "/cloths/0/fabric/capacity_kg_per_kg", 0, {"> 0"}),

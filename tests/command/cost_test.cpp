@@ -181,5 +181,21 @@ TEST(Cost, AWorldThatFailsWithoutAnEffectEndsTheMeasurement) {
   expectConsistent(result);
 }
 
+TEST(Cost, OnClothSolverBesidePlainBulletOnItsOwn) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("scene.json", smallScene().dump());
+  const Json bullets = costOf({file, "--steps", "4"});
+  const Json ours = costOf({file, "--steps", "4", "--solver", "wetcloth"});
+  EXPECT_EQ(bullets.at("solver"), "bullet");
+  EXPECT_EQ(bullets.at("no_effects_same_state"), true);
+  EXPECT_EQ(ours.at("solver"), "wetcloth");
+  EXPECT_FALSE(ours.contains("no_effects_same_state"));  // a cloth on another solver is in another state
+  expectConsistent(ours);
+  EXPECT_EQ(namesIn(ours), namesIn(bullets));
+  const Outcome text = runWetcloth({"cost", file, "--steps", "4", "--solver", "wetcloth"});
+  EXPECT_EQ(text.out.find("ANOTHER STATE"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("solver wetcloth"), std::string::npos) << text.out;
+}
+
 }  // namespace
 }  // namespace wetcloth_test::cost_test

@@ -80,6 +80,22 @@ TEST_P(FallInWorld, PhysicalSaturatedCottonDoesNotHalveTheTime) {
 
 INSTANTIATE_TEST_SUITE_P(Worlds, FallInWorld, testing::Values("soft_rigid", "soft_multibody", "deformable"));
 
+TEST(Fall, SaysWhichSolver) {
+  const auto solverOf = [](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"fall", "--height", "0.01", "--json", "-"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Json::parse(runWetcloth(words).out).at("solver").get<std::string>();
+  };
+  EXPECT_EQ(solverOf({}), "bullet");
+  EXPECT_EQ(solverOf({"--solver", "bullet"}), "bullet");
+  EXPECT_EQ(solverOf({"--solver", "wetcloth"}), "wetcloth");
+}
+
+TEST(Fall, TheDeformableWorldHasNoOtherSolver) {
+  expectRefusal(runWetcloth({"fall", "--world", "deformable", "--solver", "wetcloth"}),
+                {"--solver = \"wetcloth\"", "\"bullet\"", "deformable"});
+}
+
 TEST(Fall, OtherHeights) {
   for (const char* height : {"0.01", "1", "12"}) expectWithinOneSubstep(fall({"--height", height}));
 }

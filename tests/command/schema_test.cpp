@@ -85,10 +85,27 @@ TEST(Schema, AcceptsEveryScene) {
   EXPECT_EQ(complaints(files), "");
 }
 
+TEST(Schema, AcceptsEachKindOfSolver) {
+  if (!hasJsonSchema()) GTEST_SKIP() << "python3 has no jsonschema (Debian: python3-jsonschema)";
+  const TemporaryDirectory directory;
+  const auto complaintsAbout = [&](const Json& solver) {
+    Json scene = smallScene();
+    scene["solver"] = solver;
+    return complaints({directory.write("scene.json", scene.dump())});
+  };
+  const Json numbers = {{"small_steps", 10}, {"stiffness_n_m", 1000}};
+  for (const Json& solver : {Json("bullet"), Json("wetcloth"), Json::object(), numbers}) {
+    EXPECT_EQ(complaintsAbout(solver), "") << solver;
+  }
+  for (const Json& solver : {Json("bulet"), Json(5), Json({{"small_steps", 0}}), Json({{"stiffness_n_m", 0}})}) {
+    EXPECT_NE(complaintsAbout(solver), "") << solver;
+  }
+}
+
 TEST(Schema, RefusesATypoAtEachDepth) {
   if (!hasJsonSchema()) GTEST_SKIP() << "python3 has no jsonschema (Debian: python3-jsonschema)";
   for (const char* pointer :
-       {"/duraton_s", "/cloths/0/fabrik", "/cloths/0/patch/colums", "/cloths/0/fabric/color",
+       {"/duraton_s", "/solver/smal_steps", "/cloths/0/fabrik", "/cloths/0/patch/colums", "/cloths/0/fabric/color",
         "/cloths/0/effects/absorbtion", "/cloths/0/effects/wind/velocity_km_h", "/colliders/0/sphere/radius_cm"}) {
     Json scene = smallScene();
     scene[Json::json_pointer(pointer)] = 1;

@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wetcloth_test::live_scene_test {
@@ -160,6 +162,53 @@ TEST(LiveScene, LeversReachTheEffectsAlsoThoseThatComeLater) {
   live.setRainDirection(btVector3(0, 0, -1));
   run(live, 5);
   EXPECT_NEAR(live.waterHeld(), 5 * live.scene().step * 0.5, 0.1 * 5 * live.scene().step * 0.5);
+}
+
+TEST(LiveScene, ASolverWaitsForTheReset) {
+  using command::SolverKind;
+  for (const WorldKind world : {WorldKind::softRigid, WorldKind::softMultiBody}) {
+    const command::Scene onBullets = soakingTowel(world);
+    command::Scene onOurs = onBullets;
+    onOurs.clothSolver.emplace().smallSteps = 7;
+    for (const auto& [scene, chosen] : {std::pair{onBullets, SolverKind::wetcloth}, {onOurs, SolverKind::bullet}}) {
+      LiveScene live(scene);
+      EXPECT_FALSE(live.waitsForReset());
+      live.setSolver(chosen);
+      EXPECT_EQ(live.solver(), chosen);
+      EXPECT_TRUE(live.waitsForReset());
+      run(live, 5);
+      LiveScene same(scene);
+      run(same, 5);
+      EXPECT_EQ(stateHash(live.world()), stateHash(same.world())) << "not yet";
+      live.reset();
+      EXPECT_FALSE(live.waitsForReset());
+      run(live, 20);
+      command::Scene other = scene;
+      other.clothSolver.reset();
+      if (chosen == SolverKind::wetcloth) other.clothSolver.emplace();
+      LiveScene fresh(other);
+      run(fresh, 20);
+      EXPECT_EQ(stateHash(live.world()), stateHash(fresh.world()));
+      live.restore();
+      EXPECT_EQ(live.solver(), scene.solver());
+      run(live, 5);
+      EXPECT_EQ(stateHash(live.world()), stateHash(same.world()));
+    }
+    LiveScene live(onOurs);
+    live.setSolver(SolverKind::bullet);
+    live.reset();
+    live.setSolver(SolverKind::wetcloth);
+    live.reset();
+    ASSERT_NE(live.world().clothSolver(), nullptr);
+    EXPECT_EQ(live.world().clothSolver()->parameters().smallSteps, 7) << "the scene's numbers stay";
+  }
+}
+
+TEST(LiveScene, TheDeformableWorldHasBulletsSolverAlone) {
+  LiveScene live(soakingTowel(WorldKind::deformable));
+  EXPECT_THROW(live.setSolver(command::SolverKind::wetcloth), std::invalid_argument);
+  EXPECT_FALSE(live.waitsForReset());
+  live.setSolver(command::SolverKind::bullet);
 }
 
 TEST(LiveScene, AFabricWaitsForTheReset) {
