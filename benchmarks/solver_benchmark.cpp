@@ -6,6 +6,7 @@
 #include "benchmarks/BenchCloth.h"
 #include "bullet_wetcloth/numerics/InstructionSet.h"
 #include "tests/support/RigidBody.h"
+#include "tests/support/TwoThreads.h"
 
 #include <benchmark/benchmark.h>
 
@@ -113,8 +114,10 @@ BodyBuilder irregular(int side) {
 // One world with a cloth; on ClothSolver or not.
 class Cloth {
  public:
-  Cloth(const BodyBuilder& builder, bool isOurs, bool isWet, std::unique_ptr<btCollisionShape> ground = nullptr)
-      : m_scene(WorldKind::softRigid, builder, btVector3(0, -10, 0), isOurs ? &m_solver : nullptr) {
+  Cloth(const BodyBuilder& builder, bool isOurs, bool isWet, std::unique_ptr<btCollisionShape> ground = nullptr,
+        const wetcloth::ClothSolver::Parameters& parameters = {})
+      : m_solver(parameters),
+        m_scene(WorldKind::softRigid, builder, btVector3(0, -10, 0), isOurs ? &m_solver : nullptr) {
     body().m_cfg.piterations = 10;
     body().getCollisionShape()->setMargin(btScalar(0.01));
     if (isWet) {
@@ -132,6 +135,10 @@ class Cloth {
   }
 
   btSoftBody& body() { return m_scene.body(); }
+  void soak(double saturation) {
+    m_wet = std::make_unique<wetcloth::WetClothWorld>(m_scene.world());
+    m_wet->add(body()).setSaturation(saturation);
+  }
   void step() { m_scene.bullet().step(1, btScalar(1) / 60); }
 
  private:
@@ -220,6 +227,79 @@ void onASphere(benchmark::State& state) {
           []() -> std::unique_ptr<btCollisionShape> { return std::make_unique<btSphereShape>(btScalar(0.5)); });
 }
 
+// Stretch after 5 s, pinned along the top row, by the number of small steps and of tethers; 0: Bullet with 10
+// iterations.
+void stretch(benchmark::State& state) {
+  wetcloth::ClothSolver::Parameters parameters;
+  const bool isOurs = state.range(0) > 0;
+  if (isOurs) parameters.smallSteps = static_cast<int>(state.range(0));
+  parameters.tethers = static_cast<int>(state.range(1));
+  for (auto _ : state) {
+    static_cast<void>(_);
+    Cloth cloth(hanging(64), isOurs, false, nullptr, parameters);
+    const double seconds = secondsOf([&] {
+      for (int step = 0; step < 300; ++step) cloth.step();
+    });
+    const Stretch found = stretchOf(cloth.body());
+    state.SetIterationTime(seconds / 300);
+    state.counters["largest"] = found.largest;
+    state.counters["mean"] = found.mean;
+  }
+}
+
+// How much further a strip of 64 links that its dry weight stretches by 10 % hangs when it is saturated, over what its
+// springs say (1.84), with so many tethers of 1 and 1.2 times its length.
+void wetWeight(benchmark::State& state) {
+  wetcloth::ClothPatch patch;
+  patch.columns = 2;
+  patch.rows = 65;
+  patch.edgeU = btVector3(btScalar(1.0 / 64), 0, 0);
+  patch.edgeV = btVector3(0, 1, 0);
+  patch.pinnedEdges = {wetcloth::ClothPatch::Edge::top};
+  const auto hangs = [&](double saturation) {
+    wetcloth::ClothSolver::Parameters parameters;
+    parameters.stiffness = 0.15 / 64 * 10 / 2 / 0.1 * 64 / 4;
+    parameters.smallSteps = 20;
+    parameters.tethers = static_cast<int>(state.range(0));
+    parameters.tetherScale = static_cast<double>(state.range(1)) / 100;
+    Cloth cloth([&](btSoftBodyWorldInfo& info) { return patch.build(info); }, true, false, nullptr, parameters);
+    cloth.body().m_cfg.kDP = btScalar(0.02);
+    cloth.soak(saturation);
+    for (int step = 0; step < 1200; ++step) cloth.step();
+    return -static_cast<double>(cloth.body().m_nodes[0].m_x.y());
+  };
+  for (auto _ : state) {
+    static_cast<void>(_);
+    double dry = 0;
+    double wet = 0;
+    state.SetIterationTime(secondsOf([&] {
+      dry = hangs(0);
+      wet = hangs(1);
+    }));
+    state.counters["dry_percent"] = 100 * dry;
+    state.counters["wet_percent"] = 100 * wet;
+    state.counters["wet_over_dry"] = wet / dry;
+  }
+}
+
+// One thread over two, in turns.
+void twoThreads(benchmark::State& state) {
+  wetcloth_test::TwoThreads scheduler;
+  Cloth cloth(hanging(side(state)), true, false);
+  for (int step = 0; step < 10; ++step) cloth.step();
+  std::vector<double> one;
+  std::vector<double> two;
+  for (auto _ : state) {
+    static_cast<void>(_);
+    one.push_back(secondsOf([&] { cloth.step(); }));
+    btSetTaskScheduler(&scheduler);
+    two.push_back(secondsOf([&] { cloth.step(); }));
+    btSetTaskScheduler(nullptr);
+    state.SetIterationTime(two.back());
+  }
+  state.counters["times"] = median(one) / median(two);
+}
+
 void sizes(benchmark::internal::Benchmark* each) {
   each->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(60)->Arg(32)->Arg(64)->Arg(128)->Arg(256);
 }
@@ -235,5 +315,15 @@ BENCHMARK(wetAndIrregular)->UseManualTime()->Unit(benchmark::kMicrosecond)->Iter
 BENCHMARK(onABox)->Apply(middle);
 BENCHMARK(onAPlane)->Apply(middle);
 BENCHMARK(onASphere)->Apply(middle);
+BENCHMARK(twoThreads)->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(100)->Arg(64)->Arg(128)->Arg(256);
+BENCHMARK(stretch)->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(1)->Apply([](auto* each) {
+  for (const int smallSteps : {0, 4, 8, 10, 16, 20}) each->Args({smallSteps, 0});
+  for (const int tethers : {1, 2}) each->Args({4, tethers});
+});
+BENCHMARK(wetWeight)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(1)->Apply([](auto* each) {
+  each->Args({0, 100});
+  each->Args({1, 100});
+  each->Args({1, 120});
+});
 
 }  // namespace

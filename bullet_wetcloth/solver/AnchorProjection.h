@@ -18,6 +18,8 @@ class AnchorProjection {
  public:
   /// The anchors that the body has in this step; wakes what they hold to.
   void prepare(btSoftBody& body, const LocalNodes& nodes);
+  /// How many there are.
+  std::size_t size() const { return m_anchors.size(); }
   /// Moves the anchored nodes, in a small step of h [s].
   void project(const MovingNodes& nodes, btScalar h);
 

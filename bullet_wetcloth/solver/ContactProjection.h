@@ -22,6 +22,8 @@ class ContactProjection {
  public:
   /// The contacts that Bullet lists for the body in this step, which has so many small steps.
   void prepare(const btSoftBody& body, const LocalNodes& nodes, int smallSteps);
+  /// How many there are.
+  std::size_t size() const { return m_fixed.size() + m_contacts.size(); }
   /// Moves the nodes that approach what they touch, in a small step of h [s].
   void project(const MovingNodes& nodes, btScalar h);
 

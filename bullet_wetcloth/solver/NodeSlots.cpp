@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kCandidates = 8;  // numbers of columns to try
 constexpr double kShareOfGrid = 0.9;    // of the links, that make a mesh a grid
-constexpr int kNodesInTile = 8192;      // about: small enough for a cache, large enough for a thread to pay
+constexpr int kNodesInTile = 16384;     // about: large enough for a thread to pay
 constexpr std::size_t kClassesSize = NodeSlots::kClasses;
 
 std::size_t roundUp(std::size_t size) { return (size + NodeSlots::kLanes - 1) / NodeSlots::kLanes * NodeSlots::kLanes; }
@@ -95,7 +95,8 @@ NodeSlots findSlots(const btSoftBody& body) {
   }
   slots.grid = gridOf(nodes, columns);
   for (int k = 0; k < nodes; ++k) slots.ofNode[toSize(k)] = static_cast<int>(slotInGrid(*slots.grid, k));
-  slots.count = toSize(slots.grid->tiles()) * slots.grid->tileSize;
+  slots.tiles = toSize(slots.grid->tiles());
+  slots.count = slots.tiles * slots.grid->tileSize;
   return slots;
 }
 

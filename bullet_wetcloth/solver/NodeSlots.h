@@ -40,6 +40,7 @@ struct NodeSlots {
 
   std::vector<int> ofNode;   ///< slot of each node
   std::size_t count = 0;     ///< slots, a multiple of kLanes; those without a node are left alone
+  std::size_t tiles = 1;     ///< of as many slots each
   std::optional<Grid> grid;  ///< when the mesh is one
 };
 

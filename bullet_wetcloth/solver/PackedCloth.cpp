@@ -2,6 +2,7 @@
 #include "bullet_wetcloth/solver/PackedCloth.h"
 
 #include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/solver/Parts.h"
 #include "bullet_wetcloth/solver/WhyNotTaken.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -64,6 +65,7 @@ void PackedCloth::takeMesh() {
   m_counts[1] = m_body.m_links.size();
   m_counts[2] = m_body.m_faces.size();
   const NodeSlots slots = findSlots(m_body);
+  m_tiles = slots.tiles;
   m_nodes.reset(slots);
   m_links.reset(m_body, slots);
   m_normals.reset(m_body, slots);
@@ -194,11 +196,7 @@ void PackedCloth::solve(const ClothSolver::Parameters& parameters, const ClothSo
   m_contacts.prepare(m_body, m_nodes, count);
   m_tethers.follow(m_body, m_nodes, parameters.tethers, static_cast<btScalar>(parameters.tetherScale));
   for (int k = 0; k < count; ++k) {
-    k == 0 ? step.begin(nodes) : step.advance(nodes);
-    m_anchors.project(nodes, step.h);
-    m_contacts.project(nodes, step.h);
-    m_links.solve(linked);
-    m_tethers.project(nodes);
+    solveSmallStep(step, k == 0);
     if (callback) {
       callback({m_body,
                 k,
@@ -210,6 +208,29 @@ void PackedCloth::solve(const ClothSolver::Parameters& parameters, const ClothSo
   }
   step.end(nodes);
   m_isSolved = true;
+}
+
+// What holds a cloth to rigid bodies comes between; without it a tile's nodes are moved and linked in one go, while
+// they are in a cache.
+void PackedCloth::solveSmallStep(const SmallStep& step, bool isFirst) {
+  const MovingNodes nodes = m_nodes.moving();
+  const LinkedNodes linked = {{nodes.position[0], nodes.position[1], nodes.position[2]}, nodes.inverseMass};
+  const std::size_t tileSize = nodes.count / m_tiles;
+  const auto advance = [&](std::size_t tile) { step.advance(nodes, isFirst, tile * tileSize, (tile + 1) * tileSize); };
+  const auto link = [&](std::size_t tile) { m_links.solveTile(linked, tile); };
+  if (m_anchors.size() + m_contacts.size() > 0) {
+    forEachPart(m_tiles, advance);
+    m_anchors.project(nodes, step.h);
+    m_contacts.project(nodes, step.h);
+    forEachPart(m_tiles, link);
+  } else {
+    forEachPart(m_tiles, [&](std::size_t tile) {
+      advance(tile);
+      link(tile);
+    });
+  }
+  m_links.solveOthers(linked);
+  m_tethers.project(nodes);
 }
 
 void PackedCloth::finish() {

@@ -64,11 +64,13 @@ class PackedCloth {
   bool linksSeemChanged(const ClothSolver::Parameters& parameters);
   btScalar complianceOf(const btSoftBody::Link& link, std::size_t index,
                         const ClothSolver::Parameters& parameters) const;
+  void solveSmallStep(const SmallStep& step, bool isFirst);
   void updateBounds();
   void updateFaceTree();
 
   btSoftBody& m_body;
   LocalNodes m_nodes;
+  std::size_t m_tiles = 1;  // of the nodes' slots
   PackedLinks m_links;
   NodeNormals m_normals;
   RigidDetection m_detection;

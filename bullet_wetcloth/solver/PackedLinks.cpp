@@ -5,7 +5,6 @@
 #include "bullet_wetcloth/numerics/BestLanes.h"
 #include "bullet_wetcloth/numerics/Quad.h"
 #include "bullet_wetcloth/solver/GridLink.h"
-#include "bullet_wetcloth/solver/Parts.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
@@ -100,7 +99,7 @@ std::vector<int> PackedLinks::addRuns(const btSoftBody& body, const NodeSlots& s
     const auto found = slots.grid ? gridLink(a, b, slots.grid->columns) : std::nullopt;
     found ? families[familyOf(*found, std::max(a, b), *slots.grid)].push_back(k) : others.push_back(k);
   }
-  m_tileEnd.assign(slots.grid ? toSize(slots.grid->tiles()) : 0, 0);
+  m_tileEnd.assign(slots.tiles, 0);
   for (const auto& [family, links] : families) {
     const auto ends = [&](int k) {
       const btSoftBody::Link& link = body.m_links[k];
@@ -285,13 +284,12 @@ void PackedLinks::prepare(const LinkedNodes& nodes, btScalar h) {
   }
 }
 
-void PackedLinks::solve(const LinkedNodes& nodes) {
-  forEachPart(m_tileEnd.size(), [&](std::size_t tile) {
-    const std::size_t first = tile == 0 ? 0 : m_tileEnd[tile - 1];
-    runOnBestLanes(RunKernel{*this, nodes, first, m_tileEnd[tile]});
-  });
-  const std::size_t firstBetweenTiles = m_tileEnd.empty() ? 0 : m_tileEnd.back();
-  runOnBestLanes(RunKernel{*this, nodes, firstBetweenTiles, m_runs.size()});
+void PackedLinks::solveTile(const LinkedNodes& nodes, std::size_t tile) {
+  runOnBestLanes(RunKernel{*this, nodes, tile == 0 ? 0 : m_tileEnd[tile - 1], m_tileEnd[tile]});
+}
+
+void PackedLinks::solveOthers(const LinkedNodes& nodes) {
+  runOnBestLanes(RunKernel{*this, nodes, m_tileEnd.back(), m_runs.size()});
   if (m_batches.empty()) return;
   gather(nodes);
   runOnBestLanes(BatchKernel{*this});

@@ -52,8 +52,9 @@ class PackedLinks {
 
   /// For passes in steps of h [s] with the masses that the nodes have now.
   void prepare(const LinkedNodes& nodes, btScalar h);
-  /// One pass over all links.
-  void solve(const LinkedNodes& nodes);
+  /// One pass over all links: first those in each tile, which work on no other tile's slots, then the others.
+  void solveTile(const LinkedNodes& nodes, std::size_t tile);
+  void solveOthers(const LinkedNodes& nodes);
 
  private:
   // Lane k: slots a + k and b + k.

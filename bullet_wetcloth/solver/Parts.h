@@ -12,7 +12,7 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 /// Elements of a loop that a thread takes at once, at least: what wakes it costs some microseconds.
-constexpr std::size_t kPartSize = 8192;
+constexpr std::size_t kPartSize = 16384;
 
 /// Calls action(part) for each part, of which each has work of its own: by Bullet's task scheduler where the
 /// application has set one with several threads, else one after the other. What it does must not depend on the order.

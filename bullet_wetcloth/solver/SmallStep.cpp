@@ -121,16 +121,12 @@ void SmallStep::predict(const MovingNodes& nodes) const {
   });
 }
 
-void SmallStep::begin(const MovingNodes& nodes) const {
-  forEachStretch(nodes.count, [&](std::size_t begin, std::size_t end) {
-    runOnBestLanes(Advance<true>{*this, nodes, begin, end});
-  });
-}
-
-void SmallStep::advance(const MovingNodes& nodes) const {
-  forEachStretch(nodes.count, [&](std::size_t begin, std::size_t end) {
-    runOnBestLanes(Advance<false>{*this, nodes, begin, end});
-  });
+void SmallStep::advance(const MovingNodes& nodes, bool isFirst, std::size_t first, std::size_t end) const {
+  if (isFirst) {
+    runOnBestLanes(Advance<true>{*this, nodes, first, end});
+  } else {
+    runOnBestLanes(Advance<false>{*this, nodes, first, end});
+  }
 }
 
 void SmallStep::end(const MovingNodes& nodes) const {

@@ -44,10 +44,9 @@ struct SmallStep {
 
   /// Where the nodes would be after one step of this length; neither places nor velocities change.
   void predict(const MovingNodes& nodes) const;
-  /// The first one: moves the nodes to where they would be.
-  void begin(const MovingNodes& nodes) const;
-  /// Each further one: ends the one before, and moves the nodes.
-  void advance(const MovingNodes& nodes) const;
+  /// Moves the nodes in the slots from `first` to `end` to where they would be: in the first small step, or else after
+  /// the end() of the one before.
+  void advance(const MovingNodes& nodes, bool isFirst, std::size_t first, std::size_t end) const;
   /// After the last one: gives the nodes the velocities that links and contacts have left them.
   void end(const MovingNodes& nodes) const;
 };

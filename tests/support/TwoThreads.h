@@ -10,16 +10,14 @@
 
 namespace wetcloth_test {
 
-/// A task scheduler as an application may set one: this thread and another, which waits in between.
+/// A task scheduler as an application may set one: this thread and another, which looks for work for a while before it
+/// sleeps, as Bullet's own does.
 class TwoThreads : public btITaskScheduler {
  public:
   TwoThreads() : btITaskScheduler("TwoThreads"), m_other([this] { work(); }) {}
   ~TwoThreads() override {
-    {
-      const std::lock_guard<std::mutex> lock(m_mutex);
-      m_isOver = true;
-    }
-    m_wake.notify_one();
+    m_isOver = true;
+    wake();
     m_other.join();
   }
   TwoThreads(const TwoThreads&) = delete;
@@ -36,41 +34,41 @@ class TwoThreads : public btITaskScheduler {
     m_body = &body;
     m_next = begin;
     m_end = end;
-    {
-      const std::lock_guard<std::mutex> lock(m_mutex);
-      m_isBusy = true;
-    }
-    m_wake.notify_one();
+    m_isBusy = true;
+    wake();
     takeParts();
-    std::unique_lock<std::mutex> lock(m_mutex);
-    m_done.wait(lock, [this] { return !m_isBusy; });
+    while (m_isBusy) std::this_thread::yield();
   }
   btScalar parallelSum(int begin, int end, int, const btIParallelSumBody& body) override {
     return body.sumLoop(begin, end);
   }
 
  private:
+  bool hasNews() const { return m_isBusy || m_isOver; }
+  void wake() {
+    { const std::lock_guard<std::mutex> lock(m_mutex); }
+    m_wake.notify_one();
+  }
   void takeParts() {
     for (int part = m_next++; part < m_end; part = m_next++) m_body->forLoop(part, part + 1);
   }
   void work() {
-    std::unique_lock<std::mutex> lock(m_mutex);
-    while (true) {
-      m_wake.wait(lock, [this] { return m_isBusy || m_isOver; });
-      if (m_isOver) return;
-      lock.unlock();
-      takeParts();
-      lock.lock();
+    while (!m_isOver) {
+      constexpr int kLooks = 2000;
+      for (int look = 0; look < kLooks && !hasNews(); ++look) std::this_thread::yield();
+      if (!hasNews()) {
+        std::unique_lock<std::mutex> lock(m_mutex);
+        m_wake.wait(lock, [this] { return hasNews(); });
+      }
+      if (m_isBusy) takeParts();
       m_isBusy = false;
-      m_done.notify_one();
     }
   }
 
   std::mutex m_mutex;
   std::condition_variable m_wake;
-  std::condition_variable m_done;
-  bool m_isBusy = false;
-  bool m_isOver = false;
+  std::atomic<bool> m_isBusy{false};
+  std::atomic<bool> m_isOver{false};
   const btIParallelForBody* m_body = nullptr;
   std::atomic<int> m_next{0};
   int m_end = 0;
