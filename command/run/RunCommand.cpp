@@ -151,18 +151,10 @@ void requireOptions(const RunOptions& options) {
   }
 }
 
-// ClothSolver keeps places more exactly than the nodes have them, and only the nodes' are saved.
-void requireSavable(const RunOptions& options, const Scene& scene) {
-  if (options.checkpoint.empty() || !scene.clothSolver) return;
-  throw InputError(onOneLine("wetcloth: --checkpoint = \"" + options.checkpoint +
-                             "\": must be left out with the solver wetcloth, whose state is not saved"));
-}
-
 void runScene(const RunOptions& options) {
   requireOptions(options);
   const PreparedScene prepared = prepareScene(options);
   const Scene& scene = prepared.scene;
-  requireSavable(options, scene);
   JsonOutput output(options.json);
   const int steps = std::max(1, static_cast<int>(std::lround(scene.duration / scene.step)));
   FrameWriter frames(options.frames, options.frameCount, steps);

@@ -27,6 +27,7 @@ void SmallStepFile::follow(SceneWorld& world) {
     throw RunError(onOneLine(m_option + ": " + error.what()));
   }
   writeHead(world);
+  m_substeps = static_cast<std::uint32_t>(world.steps() * world.scene().substeps);  // of a run that is resumed
   world.clothSolver()->setSmallStepCallback(
       [this, &world](const wetcloth::ClothSolver::SmallStepView& view) { write(world, view); });
 }

@@ -11,7 +11,7 @@ namespace stability {
 
 const std::vector<World>& everyWorld() {
   static const std::vector<World> worlds{World::softRigid, World::softMultiBody, World::deformable,
-                                         World::deformableImplicit};
+                                         World::deformableImplicit, World::softRigidClothSolver};
   return worlds;
 }
 

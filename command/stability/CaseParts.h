@@ -11,7 +11,7 @@
 /// What several cases are made of.
 namespace stability {
 
-/// All four worlds.
+/// All but that of pure computation.
 const std::vector<World>& everyWorld();
 
 inline constexpr int kNodes = 8;  ///< of a side of most cases' cloths: small, since there are many of them

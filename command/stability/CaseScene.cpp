@@ -16,10 +16,11 @@
 namespace stability {
 namespace {
 
-command::WorldKind kindOf(World world) {
-  if (world == World::softRigid) return command::WorldKind::softRigid;
-  if (world == World::softMultiBody) return command::WorldKind::softMultiBody;
-  return command::WorldKind::deformable;
+using command::WorldKind;
+
+WorldKind kindOf(World world) {
+  if (isDeformable(world)) return WorldKind::deformable;
+  return world == World::softMultiBody ? WorldKind::softMultiBody : WorldKind::softRigid;
 }
 
 constexpr double kBendingShare = 0.01;  // of the stiffness of a link that bends
@@ -39,10 +40,12 @@ CaseScene::CaseScene(World world, Way way, double dt, const btVector3& gravity)
   settings.kind = kindOf(world);
   settings.gravity = gravity;
   settings.implicit = world == World::deformableImplicit;
+  if (world == World::softRigidClothSolver && isOurs()) settings.clothSolver.emplace();
   m_bullet = std::make_unique<command::BulletWorld>(settings);
   if (!isOurs()) return;
   m_wetWorld = &m_bullet->wet();
   m_wetWorld->setLog({});
+  if (m_bullet->clothSolver() != nullptr) m_bullet->clothSolver()->setLog({});
 }
 
 btSoftBody& CaseScene::add(std::unique_ptr<btSoftBody> body, double stiffness) {
@@ -95,17 +98,19 @@ btRigidBody& CaseScene::addFloor(double height) {
 // A body that the deformable world does not step must not be asked for its forces either.
 void CaseScene::takeOut(btSoftBody& body) {
   body.forceActivationState(DISABLE_SIMULATION);
-  if (m_world == World::softRigid) static_cast<btSoftRigidDynamicsWorld&>(bullet()).removeSoftBody(&body);
-  if (m_world == World::softMultiBody) static_cast<btSoftMultiBodyDynamicsWorld&>(bullet()).removeSoftBody(&body);
-  if (isDeformable(m_world)) static_cast<btDeformableMultiBodyDynamicsWorld&>(bullet()).removeSoftBody(&body);
+  const WorldKind kind = kindOf(m_world);
+  if (kind == WorldKind::softRigid) static_cast<btSoftRigidDynamicsWorld&>(bullet()).removeSoftBody(&body);
+  if (kind == WorldKind::softMultiBody) static_cast<btSoftMultiBodyDynamicsWorld&>(bullet()).removeSoftBody(&body);
+  if (kind == WorldKind::deformable) static_cast<btDeformableMultiBodyDynamicsWorld&>(bullet()).removeSoftBody(&body);
   clothOf(body).isInWorld = false;
 }
 
 void CaseScene::putBack(btSoftBody& body) {
   body.forceActivationState(DISABLE_DEACTIVATION);
-  if (m_world == World::softRigid) static_cast<btSoftRigidDynamicsWorld&>(bullet()).addSoftBody(&body);
-  if (m_world == World::softMultiBody) static_cast<btSoftMultiBodyDynamicsWorld&>(bullet()).addSoftBody(&body);
-  if (isDeformable(m_world)) static_cast<btDeformableMultiBodyDynamicsWorld&>(bullet()).addSoftBody(&body);
+  const WorldKind kind = kindOf(m_world);
+  if (kind == WorldKind::softRigid) static_cast<btSoftRigidDynamicsWorld&>(bullet()).addSoftBody(&body);
+  if (kind == WorldKind::softMultiBody) static_cast<btSoftMultiBodyDynamicsWorld&>(bullet()).addSoftBody(&body);
+  if (kind == WorldKind::deformable) static_cast<btDeformableMultiBodyDynamicsWorld&>(bullet()).addSoftBody(&body);
   clothOf(body).isInWorld = true;
 }
 

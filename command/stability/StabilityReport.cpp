@@ -146,13 +146,13 @@ std::string naiveTable(const std::vector<CaseResult>& results, const std::vector
 std::string StabilityReport::text() const {
   char line[256];
   std::string text;
-  std::snprintf(line, sizeof line, "%-32s %-19s %8s  %-12s %8s  %-14s %-28s %s\n", "case", "world", "step [s]",
+  std::snprintf(line, sizeof line, "%-32s %-23s %8s  %-12s %8s  %-14s %-28s %s\n", "case", "world", "step [s]",
                 "verdict", "margin", "bound", "plain Bullet", "obvious way");
   text += line;
   for (const CaseResult& result : m_results) {
     const std::string naive =
         result.naiveMethod ? result.hardCase->naiveMethod + ": " + comparisonText(result.naiveMethod) : "";
-    std::snprintf(line, sizeof line, "%-32s %-19s %8s  %-12s %8s  %-14s %-28s %s\n", result.hardCase->name.c_str(),
+    std::snprintf(line, sizeof line, "%-32s %-23s %8s  %-12s %8s  %-14s %-28s %s\n", result.hardCase->name.c_str(),
                   nameOf(result.world).c_str(), stepName(result.step).c_str(), nameOf(result.verdict()),
                   numberText(result.ours.nearest().ratio).c_str(), result.ours.nearest().bound.c_str(),
                   comparisonText(result.plainBullet).c_str(), naive.c_str());

@@ -156,9 +156,8 @@ class Neighbours {
       WashingLine line(*m_scenes.back());
       m_scenes.back()->substep();
     }
-    for (int k = 0; k < 4; ++k) {
-      const int left = 4 - k;
-      m_scenes.erase(m_scenes.begin() + (turn + k) % left);
+    for (int k = 0; !m_scenes.empty(); ++k) {
+      m_scenes.erase(m_scenes.begin() + (turn + k) % static_cast<int>(m_scenes.size()));
       for (const auto& other : m_scenes) other->substep();
     }
   }

@@ -11,9 +11,10 @@ namespace stability {
 enum class World {
   softRigid,
   softMultiBody,
-  deformable,          ///< explicit; our HookeSprings hold the cloth, in plain Bullet its own springs do
-  deformableImplicit,  ///< the same, implicit with projection
-  none                 ///< cases of pure computation
+  deformable,            ///< explicit; our HookeSprings hold the cloth, in plain Bullet its own springs do
+  deformableImplicit,    ///< the same, implicit with projection
+  softRigidClothSolver,  ///< soft-rigid, on ClothSolver; plain Bullet stays on its own solver
+  none                   ///< cases of pure computation
 };
 
 /// Who moves the cloth.
@@ -25,11 +26,13 @@ enum class Way {
 };
 
 inline const std::vector<std::pair<std::string, World>>& stabilityWorlds() {
-  static const std::vector<std::pair<std::string, World>> names{{"soft_rigid", World::softRigid},
-                                                                {"soft_multibody", World::softMultiBody},
-                                                                {"deformable", World::deformable},
-                                                                {"deformable_implicit", World::deformableImplicit},
-                                                                {"none", World::none}};
+  static const std::vector<std::pair<std::string, World>> names{
+      {"soft_rigid", World::softRigid},
+      {"soft_multibody", World::softMultiBody},
+      {"deformable", World::deformable},
+      {"deformable_implicit", World::deformableImplicit},
+      {"soft_rigid_cloth_solver", World::softRigidClothSolver},
+      {"none", World::none}};
   return names;
 }
 

@@ -114,6 +114,19 @@ TEST(SmallSteps, ChangeNothing) {
   EXPECT_EQ(with.at("state_hash"), runScene(sceneOf(5)).at("state_hash"));
 }
 
+TEST(SmallSteps, OfAResumedRunGoOnCounting) {
+  const TemporaryDirectory directory;
+  const std::string scene = directory.write("scene.json", sceneOf(5).dump());
+  const std::string state = directory.path("run.state");
+  const std::string file = directory.path("small.steps");
+  runScene(scene, {"--checkpoint", state, "--every", "4"});  // of 6 steps
+  runScene(scene, {"--resume", state, "--small-steps", file});
+  const SmallSteps all = readSmallSteps(file);
+  ASSERT_EQ(all.records.size(), 2u * 4 * 5);
+  EXPECT_EQ(all.records.front().substep, 16u);
+  EXPECT_EQ(all.records.back().substep, 23u);
+}
+
 TEST(SmallSteps, NeedTheSolverThatTakesThem) {
   const TemporaryDirectory directory;
   const std::string scene = directory.write("scene.json", smallScene().dump());

@@ -132,12 +132,17 @@ TEST(RunSolver, SameSceneSameHash) {
   EXPECT_EQ(runScene(scene).at("state_hash"), runScene(scene).at("state_hash"));
 }
 
-// It keeps places more exactly than the nodes have them, and these are not in a checkpoint.
-TEST(RunSolver, ACheckpointIsRefused) {
-  const TemporaryDirectory directory;
-  const std::string state = directory.path("run.state");
-  expectRefusal(run(hangingScene(), {"--checkpoint", state, "--json", "-"}), {"--checkpoint", state, "solver"});
-  runScene(hangingScene("bullet"), {"--checkpoint", state, "--every", "5"});
+TEST(RunSolver, AResumedRunEndsAsOneThatWasNot) {
+  for (const char* name : {"hanging_towel", "dip_and_lift", "rain_on_umbrella_cloth"}) {
+    Json scene = readJson(sceneFile(name));
+    scene["solver"] = "wetcloth";
+    const TemporaryDirectory directory;
+    const std::string file = directory.write("scene.json", scene.dump());
+    const std::string state = directory.path("run.state");
+    const Json whole = runScene(file, {"--duration", "0.4", "--checkpoint", state, "--every", "17"});
+    const Json resumed = runScene(file, {"--duration", "0.4", "--resume", state});
+    EXPECT_EQ(resumed.at("state_hash"), whole.at("state_hash")) << name;
+  }
 }
 
 TEST(RunSolver, TheOptionOverrulesTheScene) {

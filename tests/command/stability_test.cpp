@@ -30,7 +30,7 @@ TEST(Stability, JsonHasEveryKey) {
   const Json report = stabilityOf({"--case", "wind_50", "--step", "1/30"});
   EXPECT_EQ(report.at("precision"), testedPrecision());
   EXPECT_EQ(report.at("fails"), 0);
-  ASSERT_EQ(report.at("cases").size(), 4U);
+  ASSERT_EQ(report.at("cases").size(), 5U);
   for (const Json& one : report.at("cases")) {
     EXPECT_EQ(one.at("name"), "wind_50");
     EXPECT_EQ(one.at("group"), "winds");
@@ -44,7 +44,8 @@ TEST(Stability, JsonHasEveryKey) {
     EXPECT_EQ(one.at("obvious_way").at("name"), "explicit wind");
   }
   EXPECT_EQ(valuesOf(report.at("cases"), "world"),
-            (std::set<std::string>{"soft_rigid", "soft_multibody", "deformable", "deformable_implicit"}));
+            (std::set<std::string>{"soft_rigid", "soft_multibody", "deformable", "deformable_implicit",
+                                   "soft_rigid_cloth_solver"}));
   const Json& first = report.at("cases").at(0);
   EXPECT_EQ(first.at("verdict"), "holds");
   EXPECT_GT(first.at("margin").get<double>(), 0);
@@ -65,7 +66,7 @@ TEST(Stability, FiltersNarrowTheTable) {
 TEST(Stability, TextShowsEachRowAndTheSum) {
   const Outcome outcome = runWetcloth({"stability", "--case", "lone_triangle", "--step", "1/60"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  for (const char* word : {"lone_triangle", "soft_multibody", "1/60", "holds", "4 runs in ", "0 fail"}) {
+  for (const char* word : {"lone_triangle", "soft_multibody", "1/60", "holds", "5 runs in ", "0 fail"}) {
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
   }
 }
