@@ -80,6 +80,18 @@ TEST_P(FallInWorld, PhysicalSaturatedCottonDoesNotHalveTheTime) {
 
 INSTANTIATE_TEST_SUITE_P(Worlds, FallInWorld, testing::Values("soft_rigid", "soft_multibody", "deformable"));
 
+class FallOnClothSolver : public testing::TestWithParam<const char*> {};
+
+TEST_P(FallOnClothSolver, FallsAsTheClosedFormSays) {
+  for (const char* mode : {"paper", "physical"}) {
+    const Json cases = fall({"--world", GetParam(), "--mode", mode, "--solver", "wetcloth"});
+    ASSERT_GE(cases.size(), 7u);
+    expectWithinOneSubstep(cases);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, FallOnClothSolver, testing::Values("soft_rigid", "soft_multibody"));
+
 TEST(Fall, SaysWhichSolver) {
   const auto solverOf = [](const std::vector<std::string>& more) {
     std::vector<std::string> words{"fall", "--height", "0.01", "--json", "-"};
