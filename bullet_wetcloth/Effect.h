@@ -32,6 +32,9 @@ struct Step {
   double dt;          ///< the substep as the body sees it (its timescale included) [s], > 0
   double time;        ///< simulated time at the start of the substep [s]
   btVector3 gravity;  ///< acceleration that Bullet will add to the body in this substep [m/s^2]
+  /// Of the velocity that gravity adds in this substep, the share with which the body moves in it: 1 in Bullet's
+  /// solvers, (n + 1) / 2 n in n small steps of ClothSolver.
+  double fallShare = 1;
 
   /// Simulated time in the middle of the step [s]. What changes in time is looked at then by a law that is exact while
   /// it stays the same: the step is of second order so (the midpoint rule), and of first order at either end.

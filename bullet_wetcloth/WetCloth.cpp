@@ -88,7 +88,7 @@ void WetCloth::moveWater(const Step& step) {
   const WaterClock::Turn turn = m_waterClock.tick(step.dt, m_pace.substepsOf(step.dt));
   if (!(turn.dt > 0)) return;
   const unsigned long long before = m_water.revision();
-  apply(Stage::sources, Stage::material, {turn.dt, step.time + turn.start, step.gravity});
+  apply(Stage::sources, Stage::material, {turn.dt, step.time + turn.start, step.gravity, step.fallShare});
   commitIfDue(m_water.revision() == before);
 }
 

@@ -223,7 +223,13 @@ void WetClothWorld::warnOfMissingGravity(const btSoftBody& body) const {
 Step WetClothWorld::stepOf(const btSoftBody& body, btScalar dt, double time) const {
   // The deformable world integrates with its own step and leaves the body's timescale aside.
   const double timescale = isDeformable(m_world) ? 1 : static_cast<double>(body.m_cfg.timescale);
-  return {static_cast<double>(dt) * timescale, time, gravityOf(body)};
+  return {static_cast<double>(dt) * timescale, time, gravityOf(body), fallShareOf(body, dt)};
+}
+
+double WetClothWorld::fallShareOf(const btSoftBody& body, btScalar dt) const {
+  const ClothSolver* const solver = ClothSolver::of(body);
+  const int count = solver ? solver->smallStepsIn(body, static_cast<double>(dt)) : 0;
+  return count > 0 ? (count + 1) / (2.0 * count) : 1;
 }
 
 btVector3 WetClothWorld::gravityOf(const btSoftBody& body) const {

@@ -134,6 +134,7 @@ class WETCLOTH_EXPORT WetClothWorld {
   bool noticePresence(WetCloth& cloth) const;
   Step stepOf(const btSoftBody& body, btScalar dt, double time) const;
   btVector3 gravityOf(const btSoftBody& body) const;
+  double fallShareOf(const btSoftBody& body, btScalar dt) const;
   void warnOfMissingGravity(const btSoftBody& body) const;
   void forget(const WetCloth& cloth);
 

@@ -143,7 +143,7 @@ void WaterDrag::look(const WetCloth& cloth, const PackedNodes& nodes, const Step
     const btVector3 velocity(nodes.velocity[0][slot], nodes.velocity[1][slot], nodes.velocity[2][slot]);
     const double volume = displacedVolume(water.dryMass(i), m_parameters.fibreDensity, water.held(i));
     state.lift = step.gravity * static_cast<btScalar>(-m_surface->density * volume);
-    const btVector3 fall = (step.gravity + state.lift * inverseMass) * dt;
+    const btVector3 fall = (step.gravity * static_cast<btScalar>(step.fallShare) + state.lift * inverseMass) * dt;
     state.relative = m_surface->velocity - velocity - (inverseMass > 0 ? fall : btVector3(0, 0, 0));
     state.specificArea = static_cast<btScalar>(areas[i]) * inverseMass;
     state.resistance.setZero();

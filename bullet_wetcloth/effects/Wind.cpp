@@ -168,7 +168,8 @@ bool Wind::wakes(const WetCloth& cloth, const Step& step) const {
 // terminal speed.
 void Wind::look(const PackedNodes& nodes, const Step& step) {
   const bool isImplicit = m_parameters.integration == Integration::semiImplicit;
-  const btVector3 fall = isImplicit ? step.gravity * static_cast<btScalar>(step.dt) : btVector3(0, 0, 0);
+  const btVector3 fall =
+      isImplicit ? step.gravity * static_cast<btScalar>(step.dt * step.fallShare) : btVector3(0, 0, 0);
   const btVector3 uniform = m_parameters.velocity.constant();  // zero when it is a function
   const std::size_t count = nodes.size();
   const btScalar* const inverseMass = nodes.inverseMass.data();

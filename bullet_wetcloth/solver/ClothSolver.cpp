@@ -68,7 +68,6 @@ class ClothSolver::Impl {
     explicit Taken(btSoftBody& body) : cloth(body) {}
     PackedCloth cloth;
     unsigned long long linksSeen = 0;  // PackedCloth::linksTaken() when small steps were last counted
-    btScalar dtSeen = 0;
     int smallStepsSeen = 0;
     bool isStuck = false;
   };
@@ -85,7 +84,7 @@ class ClothSolver::Impl {
   }
 
   void warnOfBadNode(Taken& taken) const;
-  void warnOfSmallSteps(Taken& taken, btScalar dt) const;
+  void warnOfSmallSteps(Taken& taken) const;
 
   Parameters parameters;
   std::vector<std::unique_ptr<Taken>> cloths;  // of bodies that are in the world
@@ -101,19 +100,15 @@ void ClothSolver::Impl::warnOfBadNode(Taken& taken) const {
   taken.isStuck = node >= 0;
 }
 
-// Counted again when links, the step or the number of small steps have changed.
-void ClothSolver::Impl::warnOfSmallSteps(Taken& taken, btScalar dt) const {
-  const bool isKnown = taken.linksSeen == taken.cloth.linksTaken() && taken.dtSeen == dt &&
-                       taken.smallStepsSeen == parameters.smallSteps;
-  if (isKnown) return;
+// Counted again when links or the number of small steps have changed.
+void ClothSolver::Impl::warnOfSmallSteps(Taken& taken) const {
+  if (taken.linksSeen == taken.cloth.linksTaken() && taken.smallStepsSeen == parameters.smallSteps) return;
   taken.linksSeen = taken.cloth.linksTaken();
-  taken.dtSeen = dt;
   taken.smallStepsSeen = parameters.smallSteps;
-  const int needed = taken.cloth.smallStepsFor(dt);
+  const int needed = taken.cloth.smallStepsFor();
   if (needed <= parameters.smallSteps) return;
   log("wetcloth: a cloth's links stretch further than their stiffness says: that takes " + std::to_string(needed) +
-      " small steps in a step of " + std::to_string(dt) + " s, and ClothSolver has " +
-      std::to_string(parameters.smallSteps));
+      " small steps in 1/60 s, and ClothSolver has " + std::to_string(parameters.smallSteps));
 }
 
 ClothSolver::ClothSolver() : ClothSolver(Parameters()) {}
@@ -142,10 +137,21 @@ std::string ClothSolver::reasonNotTaken(const btSoftBody& body) const {
   return "";
 }
 
-int ClothSolver::smallStepsFor(const btSoftBody& body, double dt) const {
-  requirePositive("dt", dt);
+int ClothSolver::smallStepsFor(const btSoftBody& body) const {
   const Impl::Taken* const taken = m_impl->find(body);
-  return taken ? taken->cloth.smallStepsFor(static_cast<btScalar>(dt)) : 1;
+  return taken ? taken->cloth.smallStepsFor() : 1;
+}
+
+int ClothSolver::smallStepsOf(const Parameters& parameters, double dt) {
+  constexpr double kMost = 1000;
+  constexpr double kRounding = 1e-4;  // of a step that is a whole number of small steps
+  const double count = std::ceil(dt * kSmallStepsPer * parameters.smallSteps * (1 - kRounding));
+  return static_cast<int>(std::min(std::max(count, 1.0), kMost));
+}
+
+int ClothSolver::smallStepsIn(const btSoftBody& body, double dt) const {
+  if (!m_impl->find(body)) return 0;
+  return smallStepsOf(m_impl->parameters, dt * static_cast<double>(body.m_cfg.timescale));
 }
 
 void ClothSolver::setLinkStiffness(const btSoftBody& body, const std::vector<btScalar>& factors,
@@ -203,7 +209,7 @@ void ClothSolver::predictMotion(btScalar dt) {
       continue;
     }
     taken->cloth.follow(m_impl->parameters, dt);
-    m_impl->warnOfSmallSteps(*taken, dt);
+    m_impl->warnOfSmallSteps(*taken);
     taken->cloth.predict(dt);
     m_impl->warnOfBadNode(*taken);
   }

@@ -33,7 +33,8 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
  public:
   /// What can be set, with units and ranges.
   struct Parameters {
-    /// In each of Bullet's steps, [1, 1000]. Twice as many cost less than twice the time, and stretch a quarter.
+    /// In 1/60 s, [1, 1000]; a shorter step of Bullet's has fewer, a longer one more, up to 1000, so that they are
+    /// about as long. Twice as many cost less than twice the time, and stretch a quarter.
     int smallSteps = 10;
     /// Of a link whose material has m_kLST = 1 [N/m], > 0; in proportion to it otherwise. Infinite: links do not
     /// stretch, and those with m_kLST < 1 are as soft as Bullet's own passes leave them, for the masses that the body
@@ -78,10 +79,10 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
 
   /// Why this body is stepped by Bullet's own solver, or not at all; empty: it is taken, from the next step on.
   std::string reasonNotTaken(const btSoftBody& body) const;
-  /// How many small steps a body needs in a step of dt [s] so that its links stretch as their stiffness says: h^2 is
-  /// then at most the inverse of stiffness and half the sum of both ends' inverse masses, for every link. As the body
-  /// was in the last step; 1 when it was not taken. A link that does not stretch needs none.
-  int smallStepsFor(const btSoftBody& body, double dt) const;
+  /// How many Parameters::smallSteps a body needs so that its links stretch as their stiffness says: h^2 is then at
+  /// most the inverse of stiffness and half the sum of both ends' inverse masses, for every link. As the body was in
+  /// the last step; 1 when it was not taken. A link that does not stretch needs none.
+  int smallStepsFor(const btSoftBody& body) const;
 
   /// Scales the stiffness of each link of a body that is taken, in the order of btSoftBody::m_links, without touching
   /// its material: factors > 0, or none at all. `revision` tells this call's factors from another's: with that of the
@@ -96,6 +97,14 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
 
   /// The nodes' arrays of a body that is taken, for WetCloth; null of one that is not, or was cut since the last step.
   PackedNodes* packedNodes(const btSoftBody& body);
+  /// Parameters::smallSteps are those in 1 / kSmallStepsPer [s].
+  static constexpr double kSmallStepsPer = 60;
+  /// How many small steps a step of dt [s] has: all are about as long. One pass leaves an error that becomes a velocity
+  /// by the small step's length, so that very short ones, or one that is much shorter than the last, would kick a
+  /// cloth.
+  static int smallStepsOf(const Parameters& parameters, double dt);
+  /// How many a body that is taken has in a step of dt [s], which its own timescale changes; 0 of one that is not.
+  int smallStepsIn(const btSoftBody& body, double dt) const;
   /// The ClothSolver that steps the soft bodies of this one's world, or null.
   static ClothSolver* of(const btSoftBody& body);
   /// Names what goes on from step to step for these bodies, all of the world: see StateArchive. WetClothWorld::save()

@@ -29,6 +29,9 @@ const void* addressOf(const btAlignedObjectArray<btSoftBody::Link>& array) {
 
 btScalar largestPush(const btSoftBody& body) { return body.m_worldInfo->m_maxDisplacement / body.m_sst.sdt; }
 
+// Of a number of small steps that comes out whole.
+constexpr double kCountRounding = 1e-4;
+
 }  // namespace
 
 // --- before the step ------------------------------------------------------------------------------------------------
@@ -117,14 +120,14 @@ void PackedCloth::takeLinks(const ClothSolver::Parameters& parameters) {
   }
 }
 
-int PackedCloth::smallStepsFor(btScalar dt) const {
+int PackedCloth::smallStepsFor() const {
   double most = 0;
   for (std::size_t k = 0; k < m_links.size(); ++k) {
     const double compliance = static_cast<double>(m_links.compliance(k));
     const double half = static_cast<double>(inverseMasses(m_body.m_links[static_cast<int>(k)])) / 2;
     if (compliance > 0) most = std::max(most, half / compliance);
   }
-  return std::max(1, static_cast<int>(std::ceil(static_cast<double>(dt) * std::sqrt(most) * (1 - 1e-6))));
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(most) / ClothSolver::kSmallStepsPer * (1 - kCountRounding))));
 }
 
 // --- the step -------------------------------------------------------------------------------------------------------
@@ -185,7 +188,7 @@ void PackedCloth::collide(const btCollisionObjectWrapper& object) {
 
 void PackedCloth::solve(const ClothSolver::Parameters& parameters, const ClothSolver::SmallStepCallback& callback) {
   if (!m_isPredicted) return;
-  const int count = parameters.smallSteps;
+  const int count = ClothSolver::smallStepsOf(parameters, static_cast<double>(m_body.m_sst.sdt));
   const btScalar keeps = std::pow(1 - m_body.m_cfg.kDP, 1 / static_cast<btScalar>(count));
   const btScalar push = largestPush(m_body) / static_cast<btScalar>(count);
   const SmallStep step = {m_body.m_sst.sdt / static_cast<btScalar>(count), m_body.m_worldInfo->m_gravity, keeps, push};

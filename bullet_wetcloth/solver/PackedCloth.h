@@ -33,8 +33,8 @@ class PackedCloth {
   int badNode() const { return m_nodes.badNode(); }
   /// How often its links were taken over: when the body or its links have changed.
   unsigned long long linksTaken() const { return m_linksTaken; }
-  /// As many small steps as its links need in a step of dt [s] to stretch no further than their stiffness.
-  int smallStepsFor(btScalar dt) const;
+  /// As many small steps as its links need in 1/60 s to stretch no further than their stiffness says.
+  int smallStepsFor() const;
 
   /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);

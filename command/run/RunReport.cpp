@@ -164,7 +164,7 @@ std::string RunReport::steppingLine() const {
 std::string RunReport::solverLine() const {
   if (!m_scene.clothSolver) return "";
   std::string line =
-      "solver         wetcloth, " + std::to_string(m_scene.clothSolver->smallSteps) + " small steps in each substep\n";
+      "solver         wetcloth, " + std::to_string(m_scene.clothSolver->smallSteps) + " small steps in 1/60 s\n";
   for (const auto& [cloth, reason] : m_solverReasons) {
     line += "               Bullet's own steps " + cloth + ": " + reason + "\n";
   }

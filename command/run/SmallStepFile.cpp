@@ -34,9 +34,10 @@ void SmallStepFile::follow(SceneWorld& world) {
 
 void SmallStepFile::writeHead(const SceneWorld& world) {
   const Scene& scene = world.scene();
+  const double substep = scene.step / scene.substeps;
   nlohmann::ordered_json head = {{"wetcloth_small_steps", 1},
-                                 {"substep_s", scene.step / scene.substeps},
-                                 {"small_steps", scene.clothSolver->smallSteps},
+                                 {"substep_s", substep},
+                                 {"small_steps", wetcloth::ClothSolver::smallStepsOf(*scene.clothSolver, substep)},
                                  {"nodes", nlohmann::ordered_json::array()}};
   for (const btSoftBody* body : world.bodies()) head["nodes"].push_back(body->m_nodes.size());
   m_file->stream() << head.dump() << '\n';

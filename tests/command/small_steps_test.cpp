@@ -54,9 +54,10 @@ SmallSteps readSmallSteps(const std::string& path) {
   return all;
 }
 
+// So many in each substep, which is 1/240 s.
 Json sceneOf(int smallSteps) {
   Json scene = smallScene();
-  scene["solver"] = {{"small_steps", smallSteps}};
+  scene["solver"] = {{"small_steps", 4 * smallSteps}};
   return scene;
 }
 

@@ -104,7 +104,7 @@ TEST(ClothSolver, AHangingRopeStretchesAsItsStiffnessSaysDryAndWet) {
     const double expected = hangingLength(kLinks, kLength, kMass * wetness, stiffness);
     EXPECT_NEAR(length - kLinks * kLength, expected - kLinks * kLength, 0.05 * (expected - kLinks * kLength))
         << wetness;
-    EXPECT_LE(scene.solver().smallStepsFor(rope, 1.0 / 60), 10);
+    EXPECT_LE(scene.solver().smallStepsFor(rope), 10);
     EXPECT_TRUE(scene.messages().empty());
   }
 }
@@ -115,7 +115,7 @@ TEST(ClothSolver, TellsHowManySmallStepsAStiffClothNeeds) {
   SolverScene scene(WorldKind::softRigid, kEarthGravity, smallSteps(4, stiffness));
   btSoftBody& rope = scene.add(hangingRope(5, 0.1, mass));
   scene.step(2);
-  const int needed = scene.solver().smallStepsFor(rope, 1.0 / 60);
+  const int needed = scene.solver().smallStepsFor(rope);
   EXPECT_EQ(needed, int(std::ceil(std::sqrt(stiffness / mass) / 60)));  // h^2 = m / k
   ASSERT_EQ(scene.messages().size(), 1u);
   EXPECT_NE(scene.messages().front().find(std::to_string(needed)), std::string::npos);
@@ -437,6 +437,24 @@ TEST(ClothSolver, TethersFollowWhatIsPinned) {
   for (int k = 0; k < body.m_nodes.size(); ++k) body.m_nodes[k].m_im = 100;  // all free: it falls
   scene.step(60);
   EXPECT_LT(double(body.m_nodes[63].m_x.y()), -3);
+}
+
+// They are about as long in any of Bullet's steps.
+TEST(ClothSolver, AShorterStepHasFewerSmallSteps) {
+  SolverScene scene;
+  btSoftBody& body = scene.add(hangingPatch(4));
+  scene.step(1);
+  const auto count = [&](double dt) { return scene.solver().smallStepsIn(body, dt); };
+  EXPECT_EQ(count(1.0 / 60), 10);
+  EXPECT_EQ(count(1.0 / 30), 20);
+  EXPECT_EQ(count(1.0 / 240), 3);
+  EXPECT_EQ(count(1.0 / 1000), 1);
+  EXPECT_EQ(count(100), 1000);
+  body.m_cfg.timescale = 2;
+  EXPECT_EQ(count(1.0 / 60), 20);
+  body.m_cfg.viterations = 1;
+  scene.step(1);
+  EXPECT_EQ(count(1.0 / 60), 0) << "Bullet's";
 }
 
 TEST(ClothSolver, RefusesBadParameters) {
