@@ -57,10 +57,10 @@ void requireNoMultiBodies(StateArchive& archive, const btDiscreteDynamicsWorld& 
 }
 
 bool mayTouch(const btSoftBody& a, const btSoftBody& b) {
-  using Flags = btSoftBody::fCollision;
+  using Collisions = btSoftBody::fCollision;
   const btBroadphaseProxy& first = *a.getBroadphaseHandle();
   const btBroadphaseProxy& second = *b.getBroadphaseHandle();
-  return (a.m_cfg.collisions & b.m_cfg.collisions & Flags::SVSmask) == Flags::VF_DD &&
+  return (a.m_cfg.collisions & b.m_cfg.collisions & Collisions::SVSmask) == Collisions::VF_DD &&
          (first.m_collisionFilterGroup & second.m_collisionFilterMask) != 0 &&
          (second.m_collisionFilterGroup & first.m_collisionFilterMask) != 0;
 }

@@ -30,7 +30,7 @@ struct CostOptions {
   std::string json;
 };
 
-constexpr int mostSteps = 300;        // more do not make the medians any steadier
+constexpr int enoughSteps = 300;      // more do not make the medians any steadier
 constexpr double secondsAllowed = 8;  // unless --steps says how many
 
 PrecisionWish precisionOf(const CostOptions& options) {
@@ -55,7 +55,7 @@ void measureCost(const CostOptions& options) {
   const Scene scene = sceneOf(options);
   JsonOutput output(options.json);
   const auto start = std::chrono::steady_clock::now();
-  const int steps = options.steps.value_or(mostSteps);
+  const int steps = options.steps.value_or(enoughSteps);
   CostRun run(scene);
   {
     Progress progress("measuring " + scene.name);

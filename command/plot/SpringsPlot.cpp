@@ -9,14 +9,14 @@
 namespace command {
 namespace {
 
-using Spring = wetcloth::ClothPatch::Spring;
+using SpringKind = wetcloth::ClothPatch::Spring;
 
 constexpr int nodesAlong = 7;  // nodes, few enough to tell the springs apart
 
 /// The links of one kind, with a gap after each. A flexion spring lies on two mechanical ones, so it is drawn as a bow.
-PlotSeries springsOf(const btSoftBody& body, Spring kind) {
+PlotSeries springsOf(const btSoftBody& body, SpringKind kind) {
   const btSoftBody::Material* const material = body.m_materials[static_cast<int>(kind)];
-  const int pieces = kind == Spring::flexion ? 12 : 1;
+  const int pieces = kind == SpringKind::flexion ? 12 : 1;
   PlotSeries series;
   for (int l = 0; l < body.m_links.size(); ++l) {
     const btSoftBody::Link& link = body.m_links[l];
@@ -30,7 +30,7 @@ PlotSeries springsOf(const btSoftBody& body, Spring kind) {
     for (int i = 0; i <= pieces; ++i) {
       const auto share = static_cast<btScalar>(i) / static_cast<btScalar>(pieces);
       btVector3 place = from + along * share;
-      if (kind == Spring::flexion) place += across * (4 * share * (1 - share));
+      if (kind == SpringKind::flexion) place += across * (4 * share * (1 - share));
       series.add(static_cast<double>(place.x()), static_cast<double>(place.y()));
     }
     series.add(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN());
@@ -50,7 +50,7 @@ PlotSeries massesOf(const btSoftBody& body) {
 
 std::vector<Plot> springsPlots(const PlotProgress& progress) {
   struct Shown {
-    Spring kind;
+    SpringKind kind;
     const char* name;
     const char* colour;
   };
@@ -71,9 +71,9 @@ std::vector<Plot> springsPlots(const PlotProgress& progress) {
   plot.yRange = "[-0.04:0.64]";
   plot.keyPlace = "outside right top";
   plot.hasEqualAxes = true;
-  for (const auto& [kind, name, colour] :
-       {Shown{Spring::flexion, "flexion", plot_colours::green}, Shown{Spring::shear, "shear", plot_colours::orange},
-        Shown{Spring::mechanical, "mechanical", plot_colours::blue}}) {
+  for (const auto& [kind, name, colour] : {Shown{SpringKind::flexion, "flexion", plot_colours::green},
+                                           Shown{SpringKind::shear, "shear", plot_colours::orange},
+                                           Shown{SpringKind::mechanical, "mechanical", plot_colours::blue}}) {
     PlotSeries series = springsOf(body, kind);
     series.name = name;
     series.legend = std::to_string(patch.springCount(kind)) + " " + name;

@@ -6,7 +6,7 @@
 namespace command {
 namespace {
 
-constexpr int nodesAlong = 4;
+constexpr int mostNodesAlong = 4;
 
 /// The edge with as long a piece from node to node.
 btVector3 shortened(const btVector3& edge, int nodes, int fewer) {
@@ -14,8 +14,8 @@ btVector3 shortened(const btVector3& edge, int nodes, int fewer) {
 }
 
 void makeSmall(wetcloth::ClothPatch& patch) {
-  const int columns = std::min(patch.columns, nodesAlong);
-  const int rows = std::min(patch.rows, nodesAlong);
+  const int columns = std::min(patch.columns, mostNodesAlong);
+  const int rows = std::min(patch.rows, mostNodesAlong);
   patch.edgeU = shortened(patch.edgeU, patch.columns, columns);
   patch.edgeV = shortened(patch.edgeV, patch.rows, rows);
   patch.columns = columns;

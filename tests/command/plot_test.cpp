@@ -155,7 +155,7 @@ TEST(Plot, FramesPerSecondOfTheDryAndTheFourWetFalls) {
     const Curve& curve = table.curves.at(name);
     EXPECT_GE(curve.size(), 5u) << name;
     for (const auto& [time, fps] : curve) EXPECT_GT(fps, 0) << name << ' ' << time;
-    RecordProperty(std::string("fps ") + name, std::to_string(at(curve, 1)));
+    testing::Test::RecordProperty(std::string("fps ") + name, std::to_string(at(curve, 1)));
   }
   EXPECT_NEAR(table.curves.at("dry").back().first, 4, 0.3);
   EXPECT_NEAR(table.curves.at("0.84 g").back().first, 2, 0.3);

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Zlib
+# The target wetcloth_window: what the window of `wetcloth view` takes, where it is installed.
+find_package(glfw3 3.3 QUIET)
+find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui)
+find_path(IMGUI_BACKENDS_DIR imgui_impl_glfw.h PATH_SUFFIXES imgui/backends)
+find_library(IMGUI_LIBRARY imgui)
+find_library(STB_LIBRARY stb) # Debian's ImGui takes its fonts from it
+mark_as_advanced(IMGUI_INCLUDE_DIR IMGUI_BACKENDS_DIR IMGUI_LIBRARY STB_LIBRARY)
+get_target_property(picture_definitions wetcloth_pictures INTERFACE_COMPILE_DEFINITIONS)
+set(missing "")
+if(NOT "WETCLOTH_HAS_RENDERER" IN_LIST picture_definitions)
+  string(APPEND missing " libepoxy-dev libstb-dev")
+endif()
+if(NOT glfw3_FOUND)
+  string(APPEND missing " libglfw3-dev")
+endif()
+if(NOT IMGUI_INCLUDE_DIR OR NOT IMGUI_BACKENDS_DIR OR NOT IMGUI_LIBRARY)
+  string(APPEND missing " libimgui-dev")
+endif()
+if(missing)
+  message(STATUS "Without the window of `wetcloth view` (Debian: apt install${missing})")
+  return()
+endif()
+
+add_library(wetcloth_window INTERFACE)
+target_include_directories(wetcloth_window SYSTEM INTERFACE "${EPOXY_INCLUDE_DIR}" "${IMGUI_INCLUDE_DIR}"
+                                                            "${IMGUI_BACKENDS_DIR}")
+target_link_libraries(wetcloth_window INTERFACE "${IMGUI_LIBRARY}" glfw "${EPOXY_LIBRARY}" ${CMAKE_DL_LIBS})
+if(STB_LIBRARY)
+  target_link_libraries(wetcloth_window INTERFACE "${STB_LIBRARY}")
+endif()
