@@ -121,6 +121,7 @@ void PackedCloth::takeLinks(const ClothSolver::Parameters& parameters) {
 }
 
 int PackedCloth::smallStepsFor() const {
+  if (!std::isfinite(m_stiffness)) return 1;  // as soft as in Bullet's passes, or not at all
   double most = 0;
   for (std::size_t k = 0; k < m_links.size(); ++k) {
     const double compliance = static_cast<double>(m_links.compliance(k));
