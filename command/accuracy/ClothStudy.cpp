@@ -20,6 +20,7 @@ constexpr double referenceStep = 5e-5;    // a twentieth of what is stable [s]
 std::string nameOf(Kind kind) {
   switch (kind) {
     case Kind::links: return "Bullet's links";
+    case Kind::smallSteps: return "ClothSolver";
     case Kind::hookeSprings: return "HookeSprings";
     case Kind::deformableExplicit: return "deformable, explicit";
     case Kind::deformableImplicit: break;
@@ -29,11 +30,8 @@ std::string nameOf(Kind kind) {
 
 std::vector<ClothSolver> solvers(const Effort& effort) {
   if (effort.isQuick) {
-    return {{Kind::links, 1, 10},
-            {Kind::links, 4, 10},
-            {Kind::links, 4, 50},
-            {Kind::hookeSprings, 4, 4},
-            {Kind::deformableImplicit, 4, 10}};
+    return {{Kind::links, 1, 10},      {Kind::links, 4, 10},       {Kind::links, 4, 50},
+            {Kind::smallSteps, 1, 10}, {Kind::hookeSprings, 4, 4}, {Kind::deformableImplicit, 4, 10}};
   }
   std::vector<ClothSolver> all;
   for (const int substeps : {1, 2, 4, 8, 16}) {
@@ -46,6 +44,7 @@ std::vector<ClothSolver> solvers(const Effort& effort) {
     all.push_back({Kind::deformableExplicit, substeps, 10});
   }
   all.push_back({Kind::deformableExplicit, 64, 10});
+  for (const int smallSteps : {2, 4, 8, 10, 16, 20, 40, 80, 160, 320}) all.push_back({Kind::smallSteps, 1, smallSteps});
   return all;
 }
 
@@ -61,8 +60,10 @@ void addSettings(Plan& plan, const Effort& effort, double duration,
       setting.method += ", " + setting.label;
       setting.label = iterations;
     }
+    if (solver.kind == Kind::smallSteps) setting.label = std::to_string(solver.iterations) + " small steps";
     if (solver.kind == Kind::hookeSprings) setting.method += ", " + iterations;
-    setting.knob = solver.kind == Kind::links ? 1. / solver.iterations : solver.substep();
+    const bool isCounted = solver.kind == Kind::links || solver.kind == Kind::smallSteps;
+    setting.knob = isCounted ? 1. / solver.iterations : solver.substep();
     setting.nodes = SwingingCloth::side * SwingingCloth::side;
     setting.steps = 60 * duration * solver.substeps;
     setting.simulatedSeconds = duration;
@@ -75,7 +76,7 @@ void addSettings(Plan& plan, const Effort& effort, double duration,
 
 Plan clothPlan() {
   Plan plan;
-  plan.knob = "1 / iterations of Bullet's links, substep [s] of springs";
+  plan.knob = "1 / iterations of Bullet's links, 1 / small steps of ClothSolver, substep [s] of springs";
   plan.timed = "the whole step";
   return plan;
 }

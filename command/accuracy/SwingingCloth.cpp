@@ -42,7 +42,11 @@ Specimen::Settings settingsOf(const SwingingCloth& cloth, const ClothSolver& sol
   Specimen::Settings settings;
   settings.patch = cloth.patch();
   settings.world.gravity = btVector3(0, btScalar(-SwingingCloth::gravity), 0);
-  settings.world.iterations = solver.iterations;
+  if (solver.kind == ClothSolver::Kind::smallSteps) {
+    settings.world.clothSolver.emplace().smallSteps = solver.iterations;
+  } else {
+    settings.world.iterations = solver.iterations;
+  }
   if (solver.kind == ClothSolver::Kind::deformableExplicit || solver.kind == ClothSolver::Kind::deformableImplicit) {
     settings.world.kind = command::WorldKind::deformable;
     settings.world.implicit = solver.kind == ClothSolver::Kind::deformableImplicit;

@@ -29,10 +29,10 @@ struct SwingingCloth {
 
 /// Which forces hold a cloth in Bullet together, and how finely.
 struct ClothSolver {
-  enum class Kind { links, hookeSprings, deformableExplicit, deformableImplicit };
+  enum class Kind { links, smallSteps, hookeSprings, deformableExplicit, deformableImplicit };
   Kind kind = Kind::links;
-  int substeps = 4;  ///< of 1/60 s
-  int iterations = 10;
+  int substeps = 4;     ///< of 1/60 s
+  int iterations = 10;  ///< of Bullet's links and of HookeSprings; small steps in 1/60 s of ClothSolver
 
   double substep() const { return 1. / 60 / substeps; }
 };
