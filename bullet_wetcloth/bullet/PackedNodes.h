@@ -64,18 +64,20 @@ class WETCLOTH_EXPORT PackedNodes {
   virtual void keep() { release(); }
 
  protected:
+  /// Fills the arrays from the body's nodes.
   virtual void readNodes();
+  /// Gives the body's nodes the velocities in the arrays.
   virtual void writeVelocities();
 
-  btSoftBody& m_body;
-  bool m_deformable;
-  std::size_t m_size = 0;
-  std::vector<int> m_slots;  // of each node; empty: their numbers
-  unsigned long long m_order = 0;
-  btVector3 m_origin = btVector3(0, 0, 0);
-  bool m_isHeld = false;
-  bool m_isRead = false;  // and held ever since
-  bool m_hasChanged = false;
+  btSoftBody& m_body;                       ///< whose nodes they are
+  bool m_deformable;                        ///< whether it is in that world
+  std::size_t m_size = 0;                   ///< slots
+  std::vector<int> m_slots;                 ///< of each node; empty: their numbers
+  unsigned long long m_order = 0;           ///< see order()
+  btVector3 m_origin = btVector3(0, 0, 0);  ///< see origin() [m]
+  bool m_isHeld = false;                    ///< see hold()
+  bool m_isRead = false;                    ///< and held ever since
+  bool m_hasChanged = false;                ///< velocities, which the nodes do not know yet
 };
 
 }  // namespace WETCLOTH_PRECISION

@@ -130,7 +130,7 @@ void ClothSolver::setParameters(const Parameters& parameters) {
 }
 
 std::string ClothSolver::reasonNotTaken(const btSoftBody& body) const {
-  const std::string why = whyNotTaken(body);
+  std::string why = whyNotTaken(body);
   if (!why.empty()) return why;
   const Impl::Taken* const taken = m_impl->find(body);
   if (taken && taken->isStuck) return "node " + std::to_string(taken->cloth.badNode()) + " is not finite";

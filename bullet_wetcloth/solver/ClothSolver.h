@@ -50,12 +50,12 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
 
   /// What the application sees of a body after each small step.
   struct SmallStepView {
-    const btSoftBody& body;
-    int index;             ///< of the small step, from 0
-    btScalar length;       ///< of the small step [s]
-    const int* slots;      ///< where each node is in the arrays, one number a node
-    const btScalar* x[3];  ///< places, relative to `origin` [m]
-    btVector3 origin;      ///< [m]
+    const btSoftBody& body;  ///< that was taken
+    int index;               ///< of the small step, from 0
+    btScalar length;         ///< of the small step [s]
+    const int* slots;        ///< where each node is in the arrays, one number a node
+    const btScalar* x[3];    ///< places, relative to `origin` [m]
+    btVector3 origin;        ///< [m]
     /// Of a node [m].
     btVector3 position(int node) const {
       return btVector3(x[0][slots[node]], x[1][slots[node]], x[2][slots[node]]) + origin;
@@ -113,11 +113,17 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
 
   // What Bullet's world calls. An application does not.
 
+  /// At the start of a step: takes the bodies that it can, and lets go of those that have left the world.
   void optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool forceUpdate = false) override;
+  /// Reads the nodes, and predicts where they will be.
   void predictMotion(btScalar dt) override;
+  /// Finds the contacts with a rigid body or a link of a multibody.
   void processCollision(btSoftBody* body, const btCollisionObjectWrapper* object) override;
+  /// Of two soft bodies: left to Bullet.
   void processCollision(btSoftBody* body, btSoftBody* other) override;
+  /// The small steps.
   void solveConstraints(btScalar dt) override;
+  /// Writes back what Bullet and applications read.
   void updateSoftBodies() override;
 
  private:
