@@ -88,6 +88,7 @@ class ClothSolver::Impl {
 
   Parameters parameters;
   std::vector<std::unique_ptr<Taken>> cloths;  // of bodies that are in the world
+  std::vector<std::unique_ptr<Taken>> before;  // room for those of the step before, so that no step allocates
   SmallStepCallback callback;
   std::function<void(const std::string&)> logger = [](const std::string& message) { std::clog << message << '\n'; };
 };
@@ -170,7 +171,7 @@ void ClothSolver::setLog(std::function<void(const std::string&)> log) { m_impl->
 // Called at the start of every step. Bodies that left the world may have been deleted: only addresses are compared.
 void ClothSolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool forceUpdate) {
   btDefaultSoftBodySolver::optimize(bodies, forceUpdate);
-  std::vector<std::unique_ptr<Impl::Taken>> cloths;
+  std::vector<std::unique_ptr<Impl::Taken>>& cloths = m_impl->before;
   cloths.swap(m_impl->cloths);
   for (int k = 0; k < bodies.size(); ++k) {
     if (whyNotTaken(*bodies[k])[0] != '\0') continue;
@@ -180,6 +181,7 @@ void ClothSolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool force
     m_impl->cloths.push_back(known != cloths.end() ? std::move(*known) : std::make_unique<Impl::Taken>(*bodies[k]));
     m_impl->cloths.back()->cloth.followMesh();
   }
+  cloths.clear();
 }
 
 void ClothSolver::transferState(StateArchive& archive, const btAlignedObjectArray<btSoftBody*>& bodies) {
