@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
@@ -83,6 +84,7 @@ btScalar PackedCloth::complianceOf(const btSoftBody::Link& link, std::size_t ind
                                    const ClothSolver::Parameters& parameters) const {
   const double factor = index < m_stiffnessFactors.size() ? static_cast<double>(m_stiffnessFactors[index]) : 1;
   const double hardness = static_cast<double>(link.m_material->m_kLST) * factor;
+  if (!(hardness > 0)) return std::numeric_limits<btScalar>::infinity();  // it does not pull
   if (std::isfinite(parameters.stiffness)) return static_cast<btScalar>(1 / (parameters.stiffness * hardness));
   if (hardness >= 1) return 0;
   const double left = std::pow(1 - hardness, m_body.m_cfg.piterations);
@@ -190,7 +192,7 @@ void PackedCloth::collide(const btCollisionObjectWrapper& object) {
 void PackedCloth::solve(const ClothSolver::Parameters& parameters, const ClothSolver::SmallStepCallback& callback) {
   if (!m_isPredicted) return;
   const int count = ClothSolver::smallStepsOf(parameters, static_cast<double>(m_body.m_sst.sdt));
-  const btScalar keeps = std::pow(1 - m_body.m_cfg.kDP, 1 / static_cast<btScalar>(count));
+  const btScalar keeps = std::pow(std::max(1 - m_body.m_cfg.kDP, btScalar(0)), 1 / static_cast<btScalar>(count));
   const btScalar push = largestPush(m_body) / static_cast<btScalar>(count);
   const SmallStep step = {m_body.m_sst.sdt / static_cast<btScalar>(count), m_body.m_worldInfo->m_gravity, keeps, push};
   const MovingNodes nodes = m_nodes.moving();

@@ -386,6 +386,18 @@ TEST(ClothSolver, StepsOfAnyLength) {
   EXPECT_TRUE(body.m_nodes[2].m_x == place);
 }
 
+TEST(ClothSolver, LinksWithoutHardnessAndTooMuchDampingWriteNoNaN) {
+  SolverScene scene;
+  btSoftBody& body = scene.add(hangingPatch(5));
+  for (int k = 0; k < body.m_links.size(); ++k) body.m_links[k].m_material->m_kLST = 0;
+  scene.step(10);
+  EXPECT_TRUE(std::isfinite(largestSpeed(body)));
+  EXPECT_GT(largestSpeed(body), 1) << "nothing holds it";
+  body.m_cfg.kDP = btScalar(1.5);
+  scene.step(2);
+  EXPECT_LT(largestSpeed(body), 1);
+}
+
 TEST(ClothSolver, ShowsEachSmallStep) {
   SolverScene scene(WorldKind::softRigid, kEarthGravity, smallSteps(7));
   btSoftBody& body = scene.add(hangingPatch(5));
