@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/solver/PackedCloth.h"
+#include "bullet_wetcloth/solver/SmallStepCount.h"
 #include "bullet_wetcloth/solver/WhyNotTaken.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -144,15 +145,12 @@ int ClothSolver::smallStepsFor(const btSoftBody& body) const {
 }
 
 int ClothSolver::smallStepsOf(const Parameters& parameters, double dt) {
-  constexpr double kMost = 1000;
-  constexpr double kRounding = 1e-4;  // of a step that is a whole number of small steps
-  const double count = std::ceil(dt * kSmallStepsPer * parameters.smallSteps * (1 - kRounding));
-  return static_cast<int>(std::min(std::max(count, 1.0), kMost));
+  return SmallStepCount::inSteadySteps(parameters, dt);
 }
 
 int ClothSolver::smallStepsIn(const btSoftBody& body, double dt) const {
-  if (!m_impl->find(body)) return 0;
-  return smallStepsOf(m_impl->parameters, dt * static_cast<double>(body.m_cfg.timescale));
+  const Impl::Taken* const taken = m_impl->find(body);
+  return taken ? taken->cloth.smallStepsIn(m_impl->parameters, dt) : 0;
 }
 
 void ClothSolver::setLinkStiffness(const btSoftBody& body, const std::vector<btScalar>& factors,

@@ -34,7 +34,8 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   /// What can be set, with units and ranges.
   struct Parameters {
     /// In 1/60 s, [1, 1000]; a shorter step of Bullet's has fewer, a longer one more, up to 1000, so that they are
-    /// about as long. Twice as many cost less than twice the time, and stretch a quarter.
+    /// about as long. Steps that are all alike have at least 4. Twice as many cost less than twice the time, and
+    /// stretch a quarter.
     int smallSteps = 10;
     /// Of a link whose material has m_kLST = 1 [N/m], > 0; in proportion to it otherwise. Infinite: links do not
     /// stretch, and those with m_kLST < 1 are as soft as Bullet's own passes leave them, for the masses that the body
@@ -99,9 +100,7 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   PackedNodes* packedNodes(const btSoftBody& body);
   /// Parameters::smallSteps are those in 1 / kSmallStepsPer [s].
   static constexpr double kSmallStepsPer = 60;
-  /// How many small steps a step of dt [s] has: all are about as long. One pass leaves an error that becomes a velocity
-  /// by the small step's length, so that very short ones, or one that is much shorter than the last, would kick a
-  /// cloth.
+  /// How many small steps a step has where all are dt [s] long.
   static int smallStepsOf(const Parameters& parameters, double dt);
   /// How many a body that is taken has in a step of dt [s], which its own timescale changes; 0 of one that is not.
   int smallStepsIn(const btSoftBody& body, double dt) const;

@@ -128,9 +128,13 @@ int PackedCloth::smallStepsFor() const {
   for (std::size_t k = 0; k < m_links.size(); ++k) {
     const double compliance = static_cast<double>(m_links.compliance(k));
     const double half = static_cast<double>(inverseMasses(m_body.m_links[static_cast<int>(k)])) / 2;
-    if (compliance > 0) most = std::max(most, half / compliance);
+    if (compliance > 0) most = std::max(most, half / compliance / m_links.passes());
   }
   return std::max(1, static_cast<int>(std::ceil(std::sqrt(most) / ClothSolver::kSmallStepsPer * (1 - kCountRounding))));
+}
+
+int PackedCloth::smallStepsIn(const ClothSolver::Parameters& parameters, double dt) const {
+  return m_smallSteps.of(parameters, dt * static_cast<double>(m_body.m_cfg.timescale));
 }
 
 // --- the step -------------------------------------------------------------------------------------------------------
@@ -189,15 +193,24 @@ void PackedCloth::collide(const btCollisionObjectWrapper& object) {
   if (m_isPredicted && way == btSoftBody::fCollision::SDF_RS) m_detection.detect(m_body, m_nodes, object);
 }
 
+// Of the places in the arrays.
+btScalar PackedCloth::rounding() const {
+  btScalar farthest = 0;
+  for (const btVector3& corner : m_body.m_bounds) farthest = std::max(farthest, (corner - m_nodes.origin()).length());
+  return farthest * std::numeric_limits<btScalar>::epsilon() / 2;
+}
+
 void PackedCloth::solve(const ClothSolver::Parameters& parameters, const ClothSolver::SmallStepCallback& callback) {
   if (!m_isPredicted) return;
-  const int count = ClothSolver::smallStepsOf(parameters, static_cast<double>(m_body.m_sst.sdt));
+  const double sdt = static_cast<double>(m_body.m_sst.sdt);
+  const int count = m_smallSteps.of(parameters, sdt);
+  m_smallSteps.had(sdt, count);
   const btScalar keeps = std::pow(std::max(1 - m_body.m_cfg.kDP, btScalar(0)), 1 / static_cast<btScalar>(count));
   const btScalar push = largestPush(m_body) / static_cast<btScalar>(count);
   const SmallStep step = {m_body.m_sst.sdt / static_cast<btScalar>(count), m_body.m_worldInfo->m_gravity, keeps, push};
   const MovingNodes nodes = m_nodes.moving();
   const LinkedNodes linked = {{nodes.position[0], nodes.position[1], nodes.position[2]}, nodes.inverseMass};
-  m_links.prepare(linked, step.h);
+  m_links.prepare(linked, step.h, rounding());
   m_anchors.prepare(m_body, m_nodes);
   m_contacts.prepare(m_body, m_nodes, count);
   m_tethers.follow(m_body, m_nodes, parameters.tethers, static_cast<btScalar>(parameters.tetherScale));
@@ -236,6 +249,7 @@ void PackedCloth::solveSmallStep(const SmallStep& step, bool isFirst) {
     });
   }
   m_links.solveOthers(linked);
+  if (m_links.passes() > 1) forEachPart(m_tiles, [&](std::size_t tile) { m_links.solveTileBack(linked, tile); });
   m_tethers.project(nodes);
 }
 
@@ -256,6 +270,7 @@ void PackedCloth::transferState(StateArchive& archive) {
   archive.array(m_weights);
   archive.growingArray(m_stiffnessFactors);
   archive.value(m_nextLink, m_stiffness, m_dt, m_stiffnessRevision);
+  m_smallSteps.transferState(archive);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -9,6 +9,7 @@
 #include "bullet_wetcloth/solver/NodeNormals.h"
 #include "bullet_wetcloth/solver/PackedLinks.h"
 #include "bullet_wetcloth/solver/RigidDetection.h"
+#include "bullet_wetcloth/solver/SmallStepCount.h"
 #include "bullet_wetcloth/solver/Tethers.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
@@ -35,6 +36,8 @@ class PackedCloth {
   unsigned long long linksTaken() const { return m_linksTaken; }
   /// As many small steps as its links need in 1/60 s to stretch no further than their stiffness says.
   int smallStepsFor() const;
+  /// As many as its next step has, if that is dt [s] long for the world.
+  int smallStepsIn(const ClothSolver::Parameters& parameters, double dt) const;
 
   /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
@@ -65,6 +68,7 @@ class PackedCloth {
   btScalar complianceOf(const btSoftBody::Link& link, std::size_t index,
                         const ClothSolver::Parameters& parameters) const;
   void solveSmallStep(const SmallStep& step, bool isFirst);
+  btScalar rounding() const;
   void updateBounds();
   void updateFaceTree();
 
@@ -77,6 +81,7 @@ class PackedCloth {
   ContactProjection m_contacts;
   AnchorProjection m_anchors;
   Tethers m_tethers;
+  SmallStepCount m_smallSteps;
   std::vector<btScalar> m_weights;  // of each link: the sum of its ends' inverse masses when the mesh was taken
   std::vector<btScalar> m_stiffnessFactors;  // of each link, or none
   unsigned long long m_stiffnessRevision = 0;

@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/numerics/BestLanes.h"
 #include "bullet_wetcloth/numerics/Quad.h"
+#include "bullet_wetcloth/solver/BothWays.h"
 #include "bullet_wetcloth/solver/GridLink.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -60,19 +61,22 @@ Family familyOf(const GridLink& link, int to, const NodeSlots::Grid& grid) {
 // 6e-5 between 0.8 and 1.3 times the length, to 4e-2 up to three times, and no root and no division by a length of 0.
 template <class Lanes>
 WETCLOTH_INLINE Lanes pull(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& inverseMass,
-                           const Lanes& perRestSquared, const Lanes& softness) {
+                           const Lanes& perRestSquared, const Lanes& softness, const Lanes& unfelt) {
   const Lanes one = everywhere<Lanes>(1);
   const Lanes q = (x * x + y * y + z * z) * perRestSquared;
   const Lanes qq = q * q;
+  const Lanes off = qq - one;
+  const Lanes felt = choose(off * off > unfelt * perRestSquared, off, everywhere<Lanes>(0));
   const Lanes softened = everywhere<Lanes>(btScalar(0.5)) * inverseMass + softness;
   const Lanes resistance = choose(softened > inverseMass, softened, inverseMass);
   const Lanes below = one + everywhere<Lanes>(10) * q + everywhere<Lanes>(5) * qq;
-  return everywhere<Lanes>(4) * (qq - one) / (below * resistance);
+  return everywhere<Lanes>(4) * felt / (below * resistance);
 }
 
 }  // namespace
 
 void PackedLinks::reset(const btSoftBody& body, const NodeSlots& slots) {
+  m_isBothWays = needsBothWays(body);
   m_runs.clear();
   m_batches.clear();
   m_laneOfLink.assign(toSize(body.m_links.size()), 0);
@@ -176,10 +180,15 @@ struct PackedLinks::RunKernel {
   const LinkedNodes& nodes;
   std::size_t first;  // run
   std::size_t end;
+  bool isBack;
 
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
-    for (std::size_t k = first; k < end; ++k) run<Lanes>(links.m_runs[k]);
+    if (isBack) {
+      for (std::size_t k = end; k > first; --k) run<Lanes>(links.m_runs[k - 1]);
+    } else {
+      for (std::size_t k = first; k < end; ++k) run<Lanes>(links.m_runs[k]);
+    }
   }
 
   template <class Lanes>
@@ -195,13 +204,15 @@ struct PackedLinks::RunKernel {
     const btScalar* const perRestSquared = links.m_perRestSquared.data() + stretch.firstLane;
     const btScalar* const softness = links.m_softness.data() + stretch.firstLane;
     const std::size_t lanes = stretch.lanes;
+    const Lanes unfelt = everywhere<Lanes>(links.m_unfelt);
     for (std::size_t k = 0; k < lanes; k += kLaneCount<Lanes>) {
       const Lanes ax = load<Lanes>(xa + k), ay = load<Lanes>(ya + k), az = load<Lanes>(za + k);
       const Lanes bx = load<Lanes>(xb + k), by = load<Lanes>(yb + k), bz = load<Lanes>(zb + k);
       const Lanes wa = load<Lanes>(inverseMassOfA + k);
       const Lanes wb = load<Lanes>(inverseMassOfB + k);
       const Lanes dx = bx - ax, dy = by - ay, dz = bz - az;
-      const Lanes share = pull<Lanes>(dx, dy, dz, wa + wb, load<Lanes>(perRestSquared + k), load<Lanes>(softness + k));
+      const Lanes share =
+          pull<Lanes>(dx, dy, dz, wa + wb, load<Lanes>(perRestSquared + k), load<Lanes>(softness + k), unfelt);
       const Lanes toA = share * wa;
       const Lanes toB = share * wb;
       store(xa + k, ax + dx * toA);
@@ -220,11 +231,16 @@ struct PackedLinks::BatchKernel {
 
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
-    std::size_t lane = links.m_firstBatchLane;
-    for (const Batch& batch : links.m_batches) {
-      for (std::size_t k = 0; k < kBatchLanes; k += 4) run(batch.a + k, batch.b + k, lane + k);
-      lane += kBatchLanes;
-    }
+    const std::size_t count = links.m_batches.size();
+    for (std::size_t k = 0; k < count; ++k) runBatch(k);
+    if (!links.m_isBothWays) return;
+    for (std::size_t k = count; k > 0; --k) runBatch(k - 1);
+  }
+
+  WETCLOTH_INLINE void runBatch(std::size_t index) const {
+    const Batch& batch = links.m_batches[index];
+    const std::size_t lane = links.m_firstBatchLane + index * kBatchLanes;
+    for (std::size_t k = 0; k < kBatchLanes; k += 4) run(batch.a + k, batch.b + k, lane + k);
   }
 
   WETCLOTH_INLINE void run(const int* a, const int* b, std::size_t lane) const {
@@ -243,7 +259,7 @@ struct PackedLinks::BatchKernel {
     const Quad wa = load<Quad>(links.m_inverseMass[0].data() + inBatches);
     const Quad wb = load<Quad>(links.m_inverseMass[1].data() + inBatches);
     const Quad share = pull(axes[0], axes[1], axes[2], wa + wb, load<Quad>(links.m_perRestSquared.data() + lane),
-                            load<Quad>(links.m_softness.data() + lane));
+                            load<Quad>(links.m_softness.data() + lane), everywhere<Quad>(links.m_unfelt));
     const Quad toA = share * wa;
     const Quad toB = share * wb;
     const Quad sharesOfA[4] = {splat<0>(toA), splat<1>(toA), splat<2>(toA), splat<3>(toA)};
@@ -267,7 +283,9 @@ void PackedLinks::scatter(const LinkedNodes& nodes) const {
   }
 }
 
-void PackedLinks::prepare(const LinkedNodes& nodes, btScalar h) {
+void PackedLinks::prepare(const LinkedNodes& nodes, btScalar h, btScalar rounding) {
+  constexpr btScalar kPerStretch = 4;  // of q^2 - 1, for a small one
+  m_unfelt = (kPerStretch * rounding) * (kPerStretch * rounding);
   for (std::size_t k = 0; k < m_batches.size(); ++k) {
     for (std::size_t lane = 0; lane < kBatchLanes; ++lane) {
       m_inverseMass[0][k * kBatchLanes + lane] = nodes.inverseMass[m_batches[k].a[lane]];
@@ -276,7 +294,7 @@ void PackedLinks::prepare(const LinkedNodes& nodes, btScalar h) {
   }
   if (h == m_h) return;
   m_h = h;
-  const btScalar perStepSquared = 1 / (h * h);
+  const btScalar perStepSquared = static_cast<btScalar>(passes()) / (h * h);
   for (std::size_t k = 0; k < m_restLength.size(); ++k) {
     const btScalar length = std::max(m_restLength[k], kLeastLength);
     m_perRestSquared[k] = 1 / (length * length);
@@ -285,20 +303,31 @@ void PackedLinks::prepare(const LinkedNodes& nodes, btScalar h) {
 }
 
 void PackedLinks::solveTile(const LinkedNodes& nodes, std::size_t tile) {
-  runOnBestLanes(RunKernel{*this, nodes, tile == 0 ? 0 : m_tileEnd[tile - 1], m_tileEnd[tile]});
+  solveRuns(nodes, tile == 0 ? 0 : m_tileEnd[tile - 1], m_tileEnd[tile], false);
 }
 
 void PackedLinks::solveOthers(const LinkedNodes& nodes) {
-  runOnBestLanes(RunKernel{*this, nodes, m_tileEnd.back(), m_runs.size()});
-  if (m_batches.empty()) return;
-  gather(nodes);
-  runOnBestLanes(BatchKernel{*this});
-  scatter(nodes);
+  solveRuns(nodes, m_tileEnd.back(), m_runs.size(), false);
+  if (!m_batches.empty()) {
+    gather(nodes);
+    runOnBestLanes(BatchKernel{*this});
+    scatter(nodes);
+  }
+  if (m_isBothWays) solveRuns(nodes, m_tileEnd.back(), m_runs.size(), true);
+}
+
+void PackedLinks::solveTileBack(const LinkedNodes& nodes, std::size_t tile) {
+  solveRuns(nodes, tile == 0 ? 0 : m_tileEnd[tile - 1], m_tileEnd[tile], true);
+}
+
+void PackedLinks::solveRuns(const LinkedNodes& nodes, std::size_t first, std::size_t end, bool isBack) {
+  runOnBestLanes(RunKernel{*this, nodes, first, end, isBack});
 }
 
 void PackedLinks::transferState(StateArchive& archive) {
   archive.array(m_restLength);
   archive.array(m_compliance);
+  archive.value(m_isBothWays);
   if (archive.isRestoring()) m_h = 0;
 }
 

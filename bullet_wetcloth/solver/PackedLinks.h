@@ -26,7 +26,8 @@ struct LinkedNodes {
 /// A link pulls its ends together as far as a spring of its stiffness k would in a step of h: with w the sum of the
 /// ends' inverse masses and C the stretch, by C / (w + a) with a = 1 / (k h^2), the link's softness (XPBD; Macklin et
 /// al. 2016). One pass in a step lags behind the force by half a step, which stretches a cloth beyond its springs: w /
-/// 2 is taken off a, as far as it stays positive.
+/// 2 is taken off a, as far as it stays positive. A body that needsBothWays() has two passes in a step, there and back,
+/// of which each gives half: a is twice as large then.
 class PackedLinks {
  public:
   /// For the links of this body, whose nodes stand in these slots. Lengths and compliances are those of no link yet.
@@ -50,11 +51,16 @@ class PackedLinks {
   /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
 
-  /// For passes in steps of h [s] with the masses that the nodes have now.
-  void prepare(const LinkedNodes& nodes, btScalar h);
-  /// One pass over all links: first those in each tile, which work on no other tile's slots, then the others.
+  /// For passes in steps of h [s] with the masses that the nodes have now. A link whose length is off by no more than
+  /// the rounding of a place [m] does not pull: over h it would push a cloth that nothing moves.
+  void prepare(const LinkedNodes& nodes, btScalar h, btScalar rounding);
+  /// How many passes a small step has: 2 is one there and one back.
+  int passes() const { return m_isBothWays ? 2 : 1; }
+  /// The links: first those in each tile, which work on no other tile's slots, then the others.
   void solveTile(const LinkedNodes& nodes, std::size_t tile);
   void solveOthers(const LinkedNodes& nodes);
+  /// Where there are two passes: those in each tile once more, the last one first.
+  void solveTileBack(const LinkedNodes& nodes, std::size_t tile);
 
  private:
   // Lane k: slots a + k and b + k.
@@ -77,9 +83,11 @@ class PackedLinks {
   void addBatches(const btSoftBody& body, const NodeSlots& slots, const std::vector<int>& links);
   struct RunKernel;
   struct BatchKernel;
+  void solveRuns(const LinkedNodes& nodes, std::size_t first, std::size_t end, bool isBack);
   void gather(const LinkedNodes& nodes);
   void scatter(const LinkedNodes& nodes) const;
 
+  bool m_isBothWays = false;
   std::vector<Run> m_runs;             // of each tile, and then between tiles
   std::vector<std::size_t> m_tileEnd;  // run after the last one of each tile
   std::vector<Batch> m_batches;
@@ -88,6 +96,7 @@ class PackedLinks {
   PackedNodes::Lane m_compliance;      // infinite where there is no link
   btScalar m_h = 0;                    // what follows is for [s]
   PackedNodes::Lane m_perRestSquared;  // [1/m^2]
+  btScalar m_unfelt = 0;               // what is not felt of q^2 - 1, squared and times the length squared [m^2]
   PackedNodes::Lane m_softness;        // 1 / (k h^2) [1/kg]
   std::size_t m_firstBatchLane = 0;
   std::size_t m_inRuns = 0;

@@ -319,6 +319,7 @@ TEST(ClothSolver, AClothThatIsNotFiniteIsToldAndLeftAlone) {
   scene.step(5);
   const btVector3 place = bad.m_nodes[3].m_x;
   bad.m_nodes[3].m_v.setX(std::numeric_limits<btScalar>::quiet_NaN());
+  good.addVelocity(btVector3(0, 0, 1));
   const btVector3 goodBefore = good.m_nodes[12].m_x;
   scene.step(5);
   EXPECT_EQ(scene.solver().reasonNotTaken(bad), "node 3 is not finite");
@@ -372,6 +373,16 @@ TEST(ClothSolver, ASleepingBodyStays) {
   body.forceActivationState(ACTIVE_TAG);
   scene.step(5);
   EXPECT_FALSE(body.m_nodes[2].m_x == place);
+}
+
+// Links pull by the last digits of places: what that displaces must not add up to a velocity.
+TEST(ClothSolver, ASheetThatNothingMovesRests) {
+  for (const double dt : {1.0 / 1000, 1.0 / 60, 1.0 / 10}) {
+    SolverScene scene(WorldKind::softRigid, btVector3(0, 0, 0));
+    const btSoftBody& sheet = scene.add(sailPatch(16));
+    scene.step(500, dt);
+    for (int k = 0; k < sheet.m_nodes.size(); ++k) EXPECT_EQ(sheet.m_nodes[k].m_v.length(), 0) << dt;
+  }
 }
 
 TEST(ClothSolver, StepsOfAnyLength) {
@@ -459,8 +470,14 @@ TEST(ClothSolver, AShorterStepHasFewerSmallSteps) {
   const auto count = [&](double dt) { return scene.solver().smallStepsIn(body, dt); };
   EXPECT_EQ(count(1.0 / 60), 10);
   EXPECT_EQ(count(1.0 / 30), 20);
+  EXPECT_EQ(count(1.0 / 120), 5);
   EXPECT_EQ(count(1.0 / 240), 3);
   EXPECT_EQ(count(1.0 / 1000), 1);
+  scene.step(1, 1.0 / 1000);
+  EXPECT_EQ(count(1.0 / 1000), 2) << "the second step of that length: half as long as those before";
+  EXPECT_EQ(count(1.0 / 2000), 1);
+  scene.step(3, 1.0 / 1000);
+  EXPECT_EQ(count(1.0 / 1000), 4) << "the least";
   EXPECT_EQ(count(100), 1000);
   body.m_cfg.timescale = 2;
   EXPECT_EQ(count(1.0 / 60), 20);

@@ -66,7 +66,7 @@ PackedLinks linksOf(const btSoftBody& body, const NodeSlots& slots) {
 }
 
 void pass(PackedLinks& links, Nodes& nodes, const NodeSlots& slots) {
-  links.prepare(nodes.linked(), btScalar(1) / 600);
+  links.prepare(nodes.linked(), btScalar(1) / 600, 0);
   for (std::size_t tile = 0; tile < slots.tiles; ++tile) links.solveTile(nodes.linked(), tile);
   links.solveOthers(nodes.linked());
 }
@@ -193,7 +193,7 @@ TEST(PackedLinks, OneLinkGivesWayAsItsComplianceSays) {
       for (wetcloth::PackedNodes::Lane& axis : nodes.position) axis[a] = axis[b] = 0;
       nodes.position[0][b] = btScalar(length);
       nodes.inverseMass[a] = nodes.inverseMass[b] = 1;
-      links.prepare(nodes.linked(), btScalar(h));
+      links.prepare(nodes.linked(), btScalar(h), 0);
       for (std::size_t tile = 0; tile < slots.tiles; ++tile) links.solveTile(nodes.linked(), tile);
       links.solveOthers(nodes.linked());
       const double resistance = std::max(2.0, 1 + compliance / (h * h));

@@ -49,12 +49,8 @@ TEST_P(StabilityTable, NoBoundFailsThatPlainBulletHoldsOrThatIsKnownToHold) {
     if (world == stability::World::softMultiBody && hardCase.group != "contacts") continue;
     const stability::CaseResult result = stability::tryCase(hardCase, world, kStabilityStep, stability::Effort::quick,
                                                             stability::Comparisons::whereNeeded);
-    // The one that is known: docs/stability.md says why.
-    const bool isKnownToFail = hardCase.name == "obtuse_mesh" && world == stability::World::softRigidClothSolver;
-    if (!isKnownToFail) {
-      EXPECT_NE(result.verdict(), stability::CaseResult::Verdict::fails)
-          << nameOf(world) << ": " << result.ours.nearest().bound << " " << result.ours.nearest().ratio;
-    }
+    EXPECT_NE(result.verdict(), stability::CaseResult::Verdict::fails)
+        << nameOf(world) << ": " << result.ours.nearest().bound << " " << result.ours.nearest().ratio;
     EXPECT_EQ(storedOutcomes().complaintAbout(result), "");
   }
 }
