@@ -22,7 +22,7 @@ const double kNaN = std::numeric_limits<double>::quiet_NaN();
 const btScalar kScalarNaN = std::numeric_limits<btScalar>::quiet_NaN();
 const btScalar kScalarInfinity = std::numeric_limits<btScalar>::infinity();
 
-class BadValuesInTheStep : public InEveryWorld {};
+using BadValuesInTheStep = InEveryWorld;
 
 TEST_P(BadValuesInTheStep, AnExposureFunctionIsClamped) {
   struct Case {

@@ -40,7 +40,7 @@ struct Anchored {
   RigidBody box;
 };
 
-class BodiesOfEveryKind : public testing::TestWithParam<WorldKind> {};
+using BodiesOfEveryKind = testing::TestWithParam<WorldKind>;
 
 TEST_P(BodiesOfEveryKind, AnAnchoredClothRunsLikeOneBuiltHeavy) {
   Anchored wetted(GetParam(), false);
@@ -79,7 +79,7 @@ std::unique_ptr<btSoftBody> cube(btSoftBodyWorldInfo& info, bool heavy) {
   return body;
 }
 
-class Tetrahedra : public InEveryWorld {};
+using Tetrahedra = InEveryWorld;
 
 TEST_P(Tetrahedra, RunLikeABodyBuiltHeavy) {
   const auto make = [](bool heavy) { return [heavy](btSoftBodyWorldInfo& info) { return cube(info, heavy); }; };

@@ -22,7 +22,7 @@ void addEverything(wetcloth::WetCloth& cloth) {
   cloth.add<wetcloth::HookeSprings>(springsOf(200, 5));
 }
 
-class BodyComesAndGoes : public InEveryWorld {};
+using BodyComesAndGoes = InEveryWorld;
 
 // Memory checkers watch this one.
 TEST_P(BodyComesAndGoes, DeletedWhileWeKnowIt) {

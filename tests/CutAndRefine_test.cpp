@@ -40,7 +40,7 @@ struct Knife {
 
 std::ostream& operator<<(std::ostream& out, const Knife& knife) { return out << knife.name; }
 
-class CutAndRefine : public testing::TestWithParam<std::tuple<WorldKind, Knife>> {};
+using CutAndRefine = testing::TestWithParam<std::tuple<WorldKind, Knife>>;
 
 TEST_P(CutAndRefine, KeepsTheWater) {
   const auto [kind, knife] = GetParam();

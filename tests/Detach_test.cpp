@@ -53,7 +53,7 @@ struct Parts {
   wetcloth::WetCloth* cloth = nullptr;
 };
 
-class Detach : public InEveryWorld {};
+using Detach = InEveryWorld;
 
 TEST_P(Detach, GivesBackWhatEffectsChanged) {
   Parts parts(GetParam());

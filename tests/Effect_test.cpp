@@ -24,7 +24,7 @@ void addRecorder(wetcloth::WetCloth& cloth, Stage stage, const std::string& name
       cloth, [name, &names](wetcloth::WetCloth&, const wetcloth::Step&) { names.push_back(name); }, stage);
 }
 
-class EffectOrder : public InEveryWorld {};
+using EffectOrder = InEveryWorld;
 
 TEST_P(EffectOrder, IsThatOfTheStagesWhateverTheOrderOfAdding) {
   const std::vector<std::pair<Stage, std::string>> inOrder = {
@@ -114,7 +114,7 @@ class Sponge : public wetcloth::Effect {
   Parameters m_parameters;
 };
 
-class OwnEffect : public InEveryWorld {};
+using OwnEffect = InEveryWorld;
 
 TEST_P(OwnEffect, WorksLikeOneOfOurs) {
   BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));

@@ -48,7 +48,7 @@ std::vector<btScalar> run(WorldKind kind, Use use) {
   return stateOf(scene.body());
 }
 
-class NoEffectsNoChange : public InEveryWorld {};
+using NoEffectsNoChange = InEveryWorld;
 
 TEST_P(NoEffectsNoChange, BitForBit) {
   const std::vector<btScalar> expected = run(GetParam(), Use::plainBullet);

@@ -54,7 +54,7 @@ class TwoCloths {
   wetcloth::WetCloth& second;
 };
 
-class ObserveStage : public InEveryWorld {};
+using ObserveStage = InEveryWorld;
 
 TEST_P(ObserveStage, ComesBeforeAllOtherStagesOfAllCloths) {
   TwoCloths cloths(GetParam());

@@ -15,7 +15,7 @@ namespace wetcloth_test::only_the_work_asked_for_test {
 
 namespace {
 
-class OnlyTheWorkAskedFor : public InEveryWorld {};
+using OnlyTheWorkAskedFor = InEveryWorld;
 
 // 1 s is 100 time constants: what is missing then is below the rounding of a double.
 struct Soaked {

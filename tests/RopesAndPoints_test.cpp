@@ -37,7 +37,7 @@ std::string messageOfAdding(wetcloth::WetCloth& cloth, typename E::Parameters pa
   return "";
 }
 
-class RopesAndPoints : public InEveryWorld {};
+using RopesAndPoints = InEveryWorld;
 
 TEST_P(RopesAndPoints, ARopeAbsorbs) {
   BodyScene scene(GetParam(), rope);

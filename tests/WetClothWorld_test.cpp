@@ -30,7 +30,7 @@ std::vector<btScalar> run(WorldKind kind, int seed, int steps) {
   return result;
 }
 
-class WorldsAndThreads : public InEveryWorld {};
+using WorldsAndThreads = InEveryWorld;
 
 TEST_P(WorldsAndThreads, SameRunTwiceSameBytes) {
   EXPECT_TRUE(sameBits(run(GetParam(), 1, 200), run(GetParam(), 1, 200)));

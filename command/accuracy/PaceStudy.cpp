@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -36,7 +37,9 @@ const std::vector<Soaking>& soakings() {
 }
 
 /// Height of the nodes' centre after each step [m].
-std::vector<double> path(const Soaking& soaking, const WaterPace& pace, double dt, double* seconds) {
+using Path = std::vector<double>;
+
+Path pathOf(const Soaking& soaking, const WaterPace& pace, double dt, double* seconds) {
   Specimen::Settings settings;
   settings.patch = levelSquare(1, soakingSide, soaking.fabric.arealDensity);
   using Corner = wetcloth::ClothPatch::Corner;
@@ -48,7 +51,7 @@ std::vector<double> path(const Soaking& soaking, const WaterPace& pace, double d
   wetcloth::Wind::Parameters air;
   if (soaking.isHung) air.velocity = btVector3(btScalar(0.5), 0, btScalar(0.5));
   specimen.cloth().add<wetcloth::Wind>(air);
-  std::vector<double> heights;
+  Path heights;
   for (int i = 0; i < std::lround(soaking.duration / dt); ++i) {
     const double start = command::processorTime();
     specimen.substep(dt);
@@ -60,12 +63,27 @@ std::vector<double> path(const Soaking& soaking, const WaterPace& pace, double d
   return heights;
 }
 
+/// What the paces of one soaking are compared with: run once, when the first of them is.
+class ExactPath {
+ public:
+  ExactPath(const Soaking& soaking, double dt) : m_soaking(soaking), m_dt(dt) {}
+
+  const Path& heights() {
+    double unused = 0;
+    if (m_heights.empty()) m_heights = pathOf(m_soaking, WaterPace::exact(), m_dt, &unused);
+    return m_heights;
+  }
+
+ private:
+  Soaking m_soaking;
+  double m_dt;
+  Path m_heights;
+};
+
 /// Largest distance from the path at the exact pace, of the longest way from its beginning.
-Outcome strayBy(const Soaking& soaking, const WaterPace& pace, double dt) {
+Outcome strayBy(const Soaking& soaking, const WaterPace& pace, double dt, const Path& exact) {
   Outcome outcome;
-  double unused = 0;
-  const std::vector<double> exact = path(soaking, WaterPace::exact(), dt, &unused);
-  const std::vector<double> tried = path(soaking, pace, dt, &outcome.seconds);
+  const Path tried = pathOf(soaking, pace, dt, &outcome.seconds);
   double way = 0;
   double miss = 0;
   for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -86,7 +104,8 @@ Plan planOf(const char* name, const char* title, const char* knob) {
   return plan;
 }
 
-void addPoint(Plan& plan, const Soaking& soaking, const WaterPace& pace, double dt, double knob, std::string label) {
+void addPoint(Plan& plan, const Soaking& soaking, const WaterPace& pace, double dt,
+              const std::shared_ptr<ExactPath>& exact, double knob, std::string label) {
   Setting setting;
   setting.method = soaking.name;
   setting.label = std::move(label);
@@ -94,7 +113,7 @@ void addPoint(Plan& plan, const Soaking& soaking, const WaterPace& pace, double 
   setting.nodes = soakingSide * soakingSide;
   setting.steps = std::round(soaking.duration / dt);
   setting.simulatedSeconds = soaking.duration;
-  setting.run = [soaking, pace, dt] { return strayBy(soaking, pace, dt); };
+  setting.run = [soaking, pace, dt, exact] { return strayBy(soaking, pace, dt, exact->heights()); };
   plan.settings.push_back(std::move(setting));
 }
 
@@ -151,11 +170,12 @@ std::vector<Study> studyRate(const Effort& effort, const TellProgress& tell) {
   const std::vector<int> every =
       effort.isQuick ? std::vector<int>{1, 5, 25} : std::vector<int>{1, 2, 3, 4, 5, 7, 9, 15, 25};
   for (const Soaking& soaking : soakings()) {
+    const auto exact = std::make_shared<ExactPath>(soaking, dt);
     for (const int n : every) {
       WaterPace pace = WaterPace::exact();
       pace.everySubsteps = n;
       pace.longestStep = 1;
-      addPoint(plan, soaking, pace, dt, n, "every " + std::to_string(n));
+      addPoint(plan, soaking, pace, dt, exact, n, "every " + std::to_string(n));
     }
   }
   return compare(plan, effort, tell);
@@ -171,10 +191,11 @@ std::vector<Study> studyTolerance(const Effort& effort, const TellProgress& tell
                      : std::vector<std::pair<double, const char*>>{{3e-4, "0.03 %"}, {1e-3, "0.1 %"}, {2e-3, "0.2 %"},
                                                                    {5e-3, "0.5 %"},  {1e-2, "1 %"},   {3e-2, "3 %"}};
   for (const Soaking& soaking : soakings()) {
+    const auto exact = std::make_shared<ExactPath>(soaking, dt);
     for (const auto& [tolerance, label] : tolerances) {
       WaterPace pace = WaterPace::exact();
       pace.massTolerance = tolerance;
-      addPoint(plan, soaking, pace, dt, tolerance, label);
+      addPoint(plan, soaking, pace, dt, exact, tolerance, label);
     }
   }
   return compare(plan, effort, tell);

@@ -34,7 +34,7 @@ wetcloth::Effect& addRecorder(wetcloth::WetCloth& cloth, Application& applicatio
 
 using Calls = std::vector<std::string>;
 
-class CallbackChain : public InEveryWorld {};
+using CallbackChain = InEveryWorld;
 
 TEST_P(CallbackChain, TheApplicationComesFirst) {
   BodyScene scene(GetParam());

@@ -23,7 +23,7 @@ RigidContacts contactsOf(wetcloth::WetCloth& cloth) {
   return RigidContacts(cloth.body(), cloth.world().world(), cloth.isInDeformableWorld());
 }
 
-class ContactsInWorld : public InEveryWorld {};
+using ContactsInWorld = InEveryWorld;
 
 TEST_P(ContactsInWorld, ARigidContactIsToldAlikeInEveryWorld) {
   ClothScene scene(GetParam(), {0, 0, 0}, Lying().builder(GetParam()));

@@ -41,7 +41,7 @@ wetcloth::Effect& addRecorder(wetcloth::WetCloth& cloth, Application& applicatio
       stage);
 }
 
-class TickCallbackChain : public InEveryWorld {};
+using TickCallbackChain = InEveryWorld;
 
 TEST_P(TickCallbackChain, TheSlotIsTheApplicationsWhileNoEffectNeedsIt) {
   BodyScene scene(GetParam());

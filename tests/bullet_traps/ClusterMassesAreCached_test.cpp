@@ -62,7 +62,7 @@ void expectSameCaches(const btSoftBody& wet, const btSoftBody& fresh) {
   }
 }
 
-class ClusterMassesAreCached : public InEveryWorld {};
+using ClusterMassesAreCached = InEveryWorld;
 
 // The fact.
 TEST_P(ClusterMassesAreCached, InPlainBulletTheyDoNotFollowTheNodes) {

@@ -80,7 +80,7 @@ struct Watch {
   }
 };
 
-class ContactLists : public InEveryWorld {};
+using ContactLists = InEveryWorld;
 
 TEST_P(ContactLists, OfRigidBodiesAreFullInTheTickAndStillInTheNextPreTick) {
   Sheets sheets(GetParam(), contactFlags(GetParam()));

@@ -19,7 +19,7 @@ void pushWithForces(btDynamicsWorld* world, btScalar) {
   for (int i = 0; i < body.m_nodes.size(); ++i) body.addForce(btVector3(0, 0, 1) / body.m_nodes[i].m_im, i);
 }
 
-class DeformableIgnoresForces : public InEveryWorld {};
+using DeformableIgnoresForces = InEveryWorld;
 
 // The fact: 1 m/s^2 for half a second.
 TEST_P(DeformableIgnoresForces, InPlainBullet) {

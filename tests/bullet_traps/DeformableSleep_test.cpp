@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kUntilAsleep = 5 * 240;  // Bullet waits for 2 s of rest
 
-class DeformableSleep : public testing::TestWithParam<WorldKind> {};
+using DeformableSleep = testing::TestWithParam<WorldKind>;
 
 void pushOnce(btDynamicsWorld* world, btScalar) {
   btSoftBody& body = *static_cast<btSoftBody*>(world->getWorldUserInfo());

@@ -35,7 +35,7 @@ double fastest(WorldKind kind, wetcloth::Wind::Integration integration, wetcloth
   return result;
 }
 
-class ExplicitWindOvershoots : public InEveryWorld {};
+using ExplicitWindOvershoots = InEveryWorld;
 
 // The fact: force 72 N/m^2 over 0.01 kg/m^2 for 1/60 s is 120 m/s.
 TEST_P(ExplicitWindOvershoots, ByALot) {

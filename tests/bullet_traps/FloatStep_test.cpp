@@ -36,7 +36,7 @@ TEST(FloatStep, InPlainBulletOnlyTheDeformableWorldKeepsTheStepsDigits) {
 
 #endif
 
-class WaterKeepsItsDigits : public InEveryWorld {};
+using WaterKeepsItsDigits = InEveryWorld;
 
 TEST_P(WaterKeepsItsDigits, WhateverTheSolverDoesToTheStep) {
   BodyScene scene(GetParam(), squarePatch(3));

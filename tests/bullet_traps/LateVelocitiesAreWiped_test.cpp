@@ -52,7 +52,7 @@ TEST(LateVelocitiesAreWiped, OfThePostTickInPlainBullet) {
   }
 }
 
-class OneEarlyPush : public InEveryWorld {};
+using OneEarlyPush = InEveryWorld;
 
 // 1 m/s, given once: after 0.1 s the cloth is 0.1 m away and still moving.
 TEST_P(OneEarlyPush, Lasts) {

@@ -50,7 +50,7 @@ TEST(LinkOrder, InPlainBulletReversingChangesTheResult) {
   EXPECT_GT(largestDifference(stateOf(one.body()), stateOf(other.body())), 1e-4);
 }
 
-class LinkOrderIsKept : public InEveryWorld {};
+using LinkOrderIsKept = InEveryWorld;
 
 TEST_P(LinkOrderIsKept, OfABodyThatIsNotOurs) {
   BodyScene scene(GetParam(), bulletPatch);

@@ -55,7 +55,7 @@ TEST(OnePreTickSlot, InPlainBulletThePostTickCallbackTakesTheUserInfo) {
   EXPECT_EQ(scene.world().getWorldUserInfo(), &others);
 }
 
-class PickingGoesOn : public InEveryWorld {};
+using PickingGoesOn = InEveryWorld;
 
 TEST_P(PickingGoesOn, WhileOurWindBlows) {
   BodyScene scene(GetParam(), sailPatch(6), kNoGravity);

@@ -51,7 +51,7 @@ void expectSamePose(const btSoftBody& wet, const btSoftBody& fresh) {
   for (int row = 0; row < 3; ++row) EXPECT_LT((a.m_aqq[row] - b.m_aqq[row]).length(), kTolerance * size) << row;
 }
 
-class PoseWeightsAreCached : public InEveryWorld {};
+using PoseWeightsAreCached = InEveryWorld;
 
 // The fact.
 TEST_P(PoseWeightsAreCached, InPlainBulletTheyDoNotFollowTheNodes) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSteps = 240;
 
-class SetMassResetsRestLengths : public InEveryWorld {};
+using SetMassResetsRestLengths = InEveryWorld;
 
 // The fact: not even a new value is needed.
 TEST_P(SetMassResetsRestLengths, InPlainBullet) {

@@ -22,7 +22,7 @@ struct Ticks {
   }
 };
 
-class SubstepAndTimescale : public InEveryWorld {};
+using SubstepAndTimescale = InEveryWorld;
 
 // The fact.
 TEST_P(SubstepAndTimescale, InPlainBulletThePreTickRunsOncePerSubstep) {

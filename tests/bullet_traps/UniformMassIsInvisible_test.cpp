@@ -16,7 +16,7 @@ namespace wetcloth_test::uniform_mass_is_invisible_test {
 
 namespace {
 
-class UniformMassIsInvisible : public testing::TestWithParam<WorldKind> {};
+using UniformMassIsInvisible = testing::TestWithParam<WorldKind>;
 
 // The fact. 2 is a power of the float's base, so not even rounding differs.
 TEST_P(UniformMassIsInvisible, InPlainBullet) {

@@ -124,7 +124,7 @@ std::vector<BadScene> badScenes() {
   };
 }
 
-class BadSceneTest : public testing::TestWithParam<BadScene> {};
+using BadSceneTest = testing::TestWithParam<BadScene>;
 
 struct BadMesh {
   std::string name;

@@ -117,7 +117,7 @@ std::vector<BadLine> badLines() {
   };
 }
 
-class CcdBadLine : public testing::TestWithParam<BadLine> {};
+using CcdBadLine = testing::TestWithParam<BadLine>;
 
 struct Expected {
   std::string collection;
@@ -128,7 +128,7 @@ std::ostream& operator<<(std::ostream& stream, const Expected& tested) {
   return stream << tested.collection << "_" << tested.method;
 }
 
-class CcdTier : public testing::TestWithParam<Expected> {};
+using CcdTier = testing::TestWithParam<Expected>;
 
 TEST_P(CcdBadLine, IsRefusedWithItsPlace) {
   const TemporaryDirectory directory;

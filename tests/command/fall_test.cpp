@@ -44,7 +44,7 @@ void expectWithinOneSubstep(const Json& cases) {
   }
 }
 
-class FallInWorld : public testing::TestWithParam<const char*> {};
+using FallInWorld = testing::TestWithParam<const char*>;
 
 TEST_P(FallInWorld, PaperFourSecondsDryTwoSaturated) {
   const Json cases = fall({"--world", GetParam()});
@@ -80,7 +80,7 @@ TEST_P(FallInWorld, PhysicalSaturatedCottonDoesNotHalveTheTime) {
 
 INSTANTIATE_TEST_SUITE_P(Worlds, FallInWorld, testing::Values("soft_rigid", "soft_multibody", "deformable"));
 
-class FallOnClothSolver : public testing::TestWithParam<const char*> {};
+using FallOnClothSolver = testing::TestWithParam<const char*>;
 
 TEST_P(FallOnClothSolver, FallsAsTheClosedFormSays) {
   for (const char* mode : {"paper", "physical"}) {

@@ -252,7 +252,7 @@ TEST(AbsorptionLaw, TheThreeFabricsOfTableI) {
   }
 }
 
-class AbsorptionInWorld : public InEveryWorld {};
+using AbsorptionInWorld = InEveryWorld;
 
 TEST_P(AbsorptionInWorld, FollowsTheClosedFormWhileTheClothFalls) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));

@@ -121,7 +121,7 @@ TEST(AbsorptionMomentum, SettingSaturationByHandKeepsVelocities) {
   for (int i = 0; i < 9; ++i) EXPECT_EQ(scene.node(i).m_v, velocity);
 }
 
-class AbsorptionMomentumInWorld : public InEveryWorld {};
+using AbsorptionMomentumInWorld = InEveryWorld;
 
 // A cloth that flies freely and takes up water at rest: M v stays, so v = v0 M0 / M.
 TEST_P(AbsorptionMomentumInWorld, WaterAtRestSlowsAFlyingClothDown) {

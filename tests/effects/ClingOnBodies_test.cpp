@@ -76,7 +76,7 @@ class Handled {
   bool m_lifts = false;
 };
 
-class ClingOnBodies : public InEveryWorld {};
+using ClingOnBodies = InEveryWorld;
 
 // It slides over the edge with 0.28 of its weight, and then falls with all of it.
 TEST_P(ClingOnBodies, AtAnEdgeItIsLetGoNodeByNode) {

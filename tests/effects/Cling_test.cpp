@@ -55,7 +55,7 @@ Cling::Parameters stress(double adhesion, double shearStrength = 1000) {
   return parameters;
 }
 
-class ClingInWorld : public InEveryWorld {};
+using ClingInWorld = InEveryWorld;
 
 TEST_P(ClingInWorld, HangsUnderACeilingIfTheAdhesionBearsItsWeight) {
   for (const double share : {1.03, 0.97}) {

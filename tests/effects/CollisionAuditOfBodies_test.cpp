@@ -59,7 +59,7 @@ class TwoSheets {
   std::unique_ptr<btSoftBody> m_upper;
 };
 
-class AuditOfBodies : public InEveryWorld {};
+using AuditOfBodies = InEveryWorld;
 
 // 3 x 3 nodes, the upper sheet moved by a little along x and z. A vertex of each goes through the other where it lies
 // over it: (n - 1)^2 = 4 of the upper sheet's, whose last row and column are outside, and 4 of the lower sheet's, whose

@@ -96,7 +96,7 @@ int crossingsSeenFromAbove(const btSoftBody& body, int still) {
   return crossings;
 }
 
-class AuditInEveryWorld : public InEveryWorld {};
+using AuditInEveryWorld = InEveryWorld;
 
 // Three vertices go through the inside of a face in different substeps, edges meet nothing.
 TEST_P(AuditInEveryWorld, CountsEachVertexThatGoesThroughAFaceOnce) {

@@ -30,7 +30,7 @@ double saturationAfter(OnBody& cloth) {
   return cloth.scene.cloth().meanSaturation();
 }
 
-class ContactWettingOfBodies : public InEveryWorld {};
+using ContactWettingOfBodies = InEveryWorld;
 
 TEST_P(ContactWettingOfBodies, OverlappingPartsCountOnce) {
   for (const int count : {1, 2, 4, 8}) {

@@ -66,7 +66,7 @@ ContactWetting::Parameters atRate(double rate) {
   return parameters;
 }
 
-class ContactWettingOfCloths : public InEveryWorld {};
+using ContactWettingOfCloths = InEveryWorld;
 
 TEST_P(ContactWettingOfCloths, TwoTowelsPressedTogetherBecomeEquallyWet) {
   TwoTowels towels(GetParam());

@@ -78,7 +78,7 @@ class OnFloor {
   RigidBody floor;
 };
 
-class ContactWettingInWorld : public InEveryWorld {};
+using ContactWettingInWorld = InEveryWorld;
 
 TEST_P(ContactWettingInWorld, ANodeFillsWhileItTouches) {
   OnFloor cloth(GetParam());

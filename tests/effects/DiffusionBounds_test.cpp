@@ -113,7 +113,7 @@ TEST(DiffusionBounds, EndsEven) {
   }
 }
 
-class DiffusionMomentum : public InEveryWorld {};
+using DiffusionMomentum = InEveryWorld;
 
 TEST_P(DiffusionMomentum, IsKept) {
   for (const double dt : {1e-3, 1.0, 1e4}) {

@@ -142,7 +142,7 @@ class Plane : public btSoftBody::ImplicitFn {
   btScalar Eval(const btVector3& x) override { return x.x() - btScalar(0.07); }
 };
 
-class DiffusionInWorld : public InEveryWorld {};
+using DiffusionInWorld = InEveryWorld;
 
 TEST_P(DiffusionInWorld, GoesOnAfterACut) {
   wetcloth::ClothPatch patch = levelPatch(6, 1);

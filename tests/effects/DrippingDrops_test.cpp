@@ -230,7 +230,7 @@ TEST(DrippingIdles, UntilItsHoldingCapacityChanges) {
 
 // --- in Bullet's worlds -----------------------------------------------------------------------------------------
 
-class DrippingDropsInWorld : public InEveryWorld {};
+using DrippingDropsInWorld = InEveryWorld;
 
 TEST_P(DrippingDropsInWorld, MayBecomeRigidBodies) {
   ClothScene scene(GetParam(), kEarthGravity, hangingPatch(3));

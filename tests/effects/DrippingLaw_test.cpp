@@ -239,7 +239,7 @@ TEST(DrippingLowPoint, WithoutGravityNothingDrips) {
 
 // --- in Bullet's worlds -----------------------------------------------------------------------------------------
 
-class DrippingInWorld : public InEveryWorld {};
+using DrippingInWorld = InEveryWorld;
 
 TEST_P(DrippingInWorld, TheHemOfAHungClothFollowsTheClosedForm) {
   // The hem on a rail: where springs let it swing for a while after the start it is no low point all the time.

@@ -93,7 +93,7 @@ TEST(DryingUpkeep, ANodeWithAVelocityThatIsNotFiniteKeepsItsWater) {
   }
 }
 
-class DryingUpkeepInWorld : public InEveryWorld {};
+using DryingUpkeepInWorld = InEveryWorld;
 
 TEST_P(DryingUpkeepInWorld, GoesOnWhenTheClothIsCut) {
   ClothScene scene(GetParam(), kEarthGravity, hangingPatch(5));

@@ -212,7 +212,7 @@ TEST(Drying, LeavesTheVelocities) {
 
 // --- in Bullet's worlds -----------------------------------------------------------------------------------------
 
-class DryingInWorld : public InEveryWorld {};
+using DryingInWorld = InEveryWorld;
 
 TEST_P(DryingInWorld, OfAPinnedClothFollowsTheClosedForm) {
   wetcloth::ClothPatch patch = levelPatch(3, 1);

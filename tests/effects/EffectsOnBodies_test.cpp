@@ -33,7 +33,7 @@ wetcloth::ContactWetting::Parameters wetBody(const btCollisionObject& body) {
 /// What no kind of body may change: 1 - s falls no faster than by rate / capacity.
 double most(double before, double seconds) { return 1 - (1 - before) * std::exp(-kRate * seconds / kArealCapacity); }
 
-class EffectsOnBodies : public InEveryWorld {};
+using EffectsOnBodies = InEveryWorld;
 
 TEST_P(EffectsOnBodies, AllOfThemThroughAllThatMayHappen) {
   for (const BodyShape shape : kBodyShapes) {

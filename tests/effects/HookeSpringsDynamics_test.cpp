@@ -87,7 +87,7 @@ double energy(const btSoftBody& body, double stiffness) {
   return sum;
 }
 
-class HookeSpringsDynamics : public InEveryWorld {};
+using HookeSpringsDynamics = InEveryWorld;
 
 TEST_P(HookeSpringsDynamics, FreeChainKeepsItsMomentum) {
   for (double stiffness : {10.0, 1e4}) {

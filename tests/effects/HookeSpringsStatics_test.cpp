@@ -51,7 +51,7 @@ void expectHangingChain(ClothScene& scene, double stiffness, double share, doubl
   }
 }
 
-class HookeSpringsStatics : public InEveryWorld {};
+using HookeSpringsStatics = InEveryWorld;
 
 // The issue allows 5 %. At rest the answer does not depend on iterations or the step; what is left of the fall is
 // exp(-0.03 x 240) = 1e-3 of it, and float32 knows a length of 0.8 m to 6e-8 m, 3e-5 of the smallest extension.
@@ -188,7 +188,7 @@ WETCLOTH_IN_EVERY_WORLD(HookeSpringsStatics);
 
 // --- a load on an anchor --------------------------------------------------------------------------------------------
 
-class HookeSpringsLoad : public InEveryWorld {};
+using HookeSpringsLoad = InEveryWorld;
 
 TEST_P(HookeSpringsLoad, RopeWithABoxStretchesByBoth) {
   for (double load : {0.02, 0.2}) {
@@ -226,7 +226,7 @@ WETCLOTH_IN_EVERY_WORLD(HookeSpringsLoad);
 // --- Bullet without it
 // ------------------------------------------------------------------------------------------------
 
-class BulletsOwnLinks : public testing::TestWithParam<WorldKind> {};
+using BulletsOwnLinks = testing::TestWithParam<WorldKind>;
 
 TEST_P(BulletsOwnLinks, DoNotStretchMoreWhenTheClothIsWet) {
   const auto sag = [](double saturation) {
@@ -242,7 +242,7 @@ TEST_P(BulletsOwnLinks, DoNotStretchMoreWhenTheClothIsWet) {
 INSTANTIATE_TEST_SUITE_P(, BulletsOwnLinks, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
                          [](const auto& world) { return std::string(nameOf(world.param)); });
 
-class BulletsOwnSprings : public testing::TestWithParam<WorldKind> {};
+using BulletsOwnSprings = testing::TestWithParam<WorldKind>;
 
 TEST_P(BulletsOwnSprings, InTheDeformableWorldFollowTheSameClosedForm) {
   for (double saturation : {0.0, 1.0}) {

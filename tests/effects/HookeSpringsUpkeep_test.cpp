@@ -35,7 +35,7 @@ std::vector<LinkState> linksOf(const btSoftBody& body) {
   return links;
 }
 
-class HookeSpringsUpkeep : public InEveryWorld {};
+using HookeSpringsUpkeep = InEveryWorld;
 
 TEST_P(HookeSpringsUpkeep, RemovingThemGivesTheLinksBackAsTheyWere) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));

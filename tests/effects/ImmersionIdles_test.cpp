@@ -30,7 +30,7 @@ bool isAnyBelow(const btSoftBody& body, double level) {
   return false;
 }
 
-class ImmersionInWorld : public InEveryWorld {};
+using ImmersionInWorld = InEveryWorld;
 
 struct Pool {
   Pool(WorldKind kind, const wetcloth::ClothPatch& patch, double level, const btVector3& gravity = kEarthGravity)

@@ -18,7 +18,7 @@ namespace {
 
 using wetcloth::Rain;
 
-class RainInWorld : public InEveryWorld {};
+using RainInWorld = InEveryWorld;
 
 // Free fall beside the rain: g t and the drops' momentum, m v' = m v + dm u, all in one direction.
 TEST_P(RainInWorld, PushesAFreeClothByItsMomentum) {

@@ -22,7 +22,7 @@ using wetcloth::Seepage;
 
 const btVector3 kDown(0, btScalar(-9.81), 0);
 
-class SeepageMomentum : public InEveryWorld {};
+using SeepageMomentum = InEveryWorld;
 
 TEST_P(SeepageMomentum, IsKept) {
   wetcloth::ClothPatch patch = levelPatch(6, 0.1);

@@ -71,7 +71,7 @@ Links linksOf(const btSoftBody& body) {
   return links;
 }
 
-class SoakSoftenShrink : public InEveryWorld {};
+using SoakSoftenShrink = InEveryWorld;
 
 // A rope of 6 links of 0.1 m and nodes of 0.01 kg: each link's length against l0 (1 - shrinkage s) + (weight below) /
 // (K f(s)), dry, wet, and dry again.

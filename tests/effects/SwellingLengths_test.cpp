@@ -64,7 +64,7 @@ TEST(SwellingInput, ABodyWithoutLinksAndASecondOneAreRefused) {
   EXPECT_EQ(scene.cloth().effects().size(), 1u);
 }
 
-class SwellingLengths : public InEveryWorld {};
+using SwellingLengths = InEveryWorld;
 
 TEST_P(SwellingLengths, FollowEachLinksOwnSaturation) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));

@@ -38,7 +38,7 @@ double width(ClothScene& scene) { return double((scene.node(22).m_x - scene.node
 
 enum class HeldBy { bullet, hookeSprings };
 
-class SwellingMotion : public testing::TestWithParam<std::tuple<WorldKind, HeldBy>> {};
+using SwellingMotion = testing::TestWithParam<std::tuple<WorldKind, HeldBy>>;
 
 // All links get shorter alike, so the shape stays and no tension is left. After 3 s what is left of the motion is
 // 0.97^720 = 3e-10; iterated links approach their lengths to 1e-5 in that time. The
@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(, SwellingMotion,
                                   (std::get<1>(test.param) == HeldBy::bullet ? "_bullet" : "_hookeSprings");
                          });
 
-class SwellingTension : public InEveryWorld {};
+using SwellingTension = InEveryWorld;
 
 // A chain of equal springs between two pins that shrinks by e pulls with K l0 e. The end node is made heavy and let go:
 // in its first steps it gathers speed as that force says.

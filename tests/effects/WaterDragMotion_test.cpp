@@ -41,7 +41,7 @@ double meanSpeed(ClothScene& scene, std::size_t axis = 1) {
   return momentum(scene.body())[axis] / freeMass(scene.body());
 }
 
-class WaterDragMotionInWorld : public InEveryWorld {};
+using WaterDragMotionInWorld = InEveryWorld;
 
 // --- sinking and rising -----------------------------------------------------------------------------------------
 
@@ -207,7 +207,7 @@ TEST(WaterDragStability, StepsConvergeToTheClosedForm) {
 
 // --- sleep, which only the deformable world knows ---------------------------------------------------------------
 
-class WaterDragSleep : public testing::TestWithParam<WorldKind> {};
+using WaterDragSleep = testing::TestWithParam<WorldKind>;
 
 TEST_P(WaterDragSleep, IsEndedByACurrentALevelThatChangesOrDrainedWater) {
   for (const char* change : {"current", "level", "drained"}) {

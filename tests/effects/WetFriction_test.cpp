@@ -70,7 +70,7 @@ class Slope {
   RigidBody m_box;
 };
 
-class WetFrictionInWorld : public InEveryWorld {};
+using WetFrictionInWorld = InEveryWorld;
 
 TEST_P(WetFrictionInWorld, EvenlyWetIsABodyWithTheProductForItsFriction) {
   Slope with(GetParam(), 1.2);

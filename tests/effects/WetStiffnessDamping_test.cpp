@@ -68,7 +68,7 @@ double spin(const btSoftBody& body, int axis) {
   return sum;
 }
 
-class WetStiffnessDamping : public InEveryWorld {};
+using WetStiffnessDamping = InEveryWorld;
 
 TEST_P(WetStiffnessDamping, OneLinkLosesItsRelativeSpeedExponentiallyWhateverTheStep) {
   for (double saturation : {0.0, 0.25, 1.0}) {

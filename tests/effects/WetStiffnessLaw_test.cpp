@@ -112,7 +112,7 @@ TEST(WetStiffnessInput, ASecondOneIsRefused) {
   EXPECT_EQ(scene.cloth().effects().size(), 1u);
 }
 
-class WetStiffnessInDeformable : public testing::TestWithParam<WorldKind> {};
+using WetStiffnessInDeformable = testing::TestWithParam<WorldKind>;
 
 TEST_P(WetStiffnessInDeformable, NeedsHookeSpringsAndSaysSo) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(4, 1));

@@ -53,7 +53,7 @@ void wetUnevenly(ClothScene& scene) {
   scene.cloth().setHeld(held);  // a few are over-full: they count as saturated
 }
 
-class WetStiffnessLinks : public testing::TestWithParam<WorldKind> {};
+using WetStiffnessLinks = testing::TestWithParam<WorldKind>;
 
 TEST_P(WetStiffnessLinks, EachFollowsItsOwnNodes) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));

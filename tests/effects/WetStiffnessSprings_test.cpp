@@ -42,7 +42,7 @@ double extension(const btSoftBody& body, int link) {
   return double((body.m_links[link].m_n[0]->m_x - body.m_links[link].m_n[1]->m_x).length()) - kLength;
 }
 
-class WetStiffnessSprings : public InEveryWorld {};
+using WetStiffnessSprings = InEveryWorld;
 
 // As for a dry chain (HookeSpringsStatics): what is left of the fall is 1e-3 of it, and float32 knows 0.8 m to 3e-5 of
 // the smallest extension.
@@ -182,7 +182,7 @@ TEST_P(WetStiffnessSprings, GoOnAfterACut) {
 
 WETCLOTH_IN_EVERY_WORLD(WetStiffnessSprings);
 
-class WetStiffnessOrder : public testing::TestWithParam<WorldKind> {};
+using WetStiffnessOrder = testing::TestWithParam<WorldKind>;
 
 TEST_P(WetStiffnessOrder, OfAddingDoesNotMatter) {
   const auto heights = [](bool springsFirst) {

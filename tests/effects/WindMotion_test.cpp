@@ -55,7 +55,7 @@ double worstTimeError(ClothScene& scene, const Fall& closedForm) {
   return worst;
 }
 
-class WindMotionInWorld : public InEveryWorld {};
+using WindMotionInWorld = InEveryWorld;
 
 TEST_P(WindMotionInWorld, FallThroughLinearDragFollowsTheClosedForm) {
   for (double saturation : {0.0, 1.0}) {

@@ -45,7 +45,7 @@ wetcloth::Wind::Parameters storm(double speed, wetcloth::Wind::Law law, double s
   return wind;
 }
 
-class LightNodeInAStorm : public InEveryWorld {};
+using LightNodeInAStorm = InEveryWorld;
 
 TEST_P(LightNodeInAStorm, NeverOutrunsTheAir) {
   for (const double speed : {1.0, 50.0}) {

@@ -27,7 +27,7 @@ water_cycle::Choice everything(std::mt19937& random) {
   return choice;
 }
 
-class WaterLedger : public InEveryWorld {};
+using WaterLedger = InEveryWorld;
 
 TEST_P(WaterLedger, ClosesAfterAHundredThousandStepsOfEverything) {
   std::mt19937 random(5);

@@ -251,7 +251,7 @@ TEST(ClothPatch, BuildsMoreNodesThanBulletsOwnBendingHelperBears) {
   EXPECT_NEAR(freeMass(*built.body), 0.150, 1e-5);
 }
 
-class ClothPatchInWorld : public InEveryWorld {};
+using ClothPatchInWorld = InEveryWorld;
 
 TEST_P(ClothPatchInWorld, FallsFreelyAndKeepsItsShape) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(9, 1));

@@ -58,7 +58,7 @@ TEST(FaceTree, HasEveryFaceOnce) {
   EXPECT_EQ(body->m_fdbvt.m_root->parent, nullptr);
 }
 
-class FaceTreeTest : public InEveryWorld {};
+using FaceTreeTest = InEveryWorld;
 
 TEST_P(FaceTreeTest, ClothInTwoPartsRunsAndCollides) {
   BulletWorld world(GetParam());

@@ -141,7 +141,7 @@ void makeTreeInOrder(btSoftBody& body) {
   }
 }
 
-class LooseNodesInAWorld : public InEveryWorld {};
+using LooseNodesInAWorld = InEveryWorld;
 WETCLOTH_IN_EVERY_WORLD(LooseNodesInAWorld);
 
 TEST_P(LooseNodesInAWorld, MoveAsOnBulletsTreeWhereNothingTouchesThem) {

@@ -42,7 +42,7 @@ void lengthenLinks(btSoftBody& body) {
   }
 }
 
-class RestShapeChanged : public testing::TestWithParam<void (*)(btSoftBody&)> {};
+using RestShapeChanged = testing::TestWithParam<void (*)(btSoftBody&)>;
 
 TEST_P(RestShapeChanged, DriesByItsNewSize) {
   SmallAndLarge sheets;

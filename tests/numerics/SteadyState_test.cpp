@@ -55,7 +55,7 @@ struct Resting {
   Step now{1.0 / 240, 0, kEarthGravity};
 };
 
-class SettlingOnEither : public testing::TestWithParam<SteadyState::DependsOn> {};
+using SettlingOnEither = testing::TestWithParam<SteadyState::DependsOn>;
 
 TEST_P(SettlingOnEither, AfterSixtyFourQuietSteps) {
   Resting resting(GetParam());

@@ -41,7 +41,7 @@ btSoftBody& addSheet(SolverScene& scene, int n, double height = 0) {
   return body;
 }
 
-class InPositionBasedWorlds : public testing::TestWithParam<WorldKind> {};
+using InPositionBasedWorlds = testing::TestWithParam<WorldKind>;
 INSTANTIATE_TEST_SUITE_P(, InPositionBasedWorlds, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
                          [](const auto& test) { return std::string(nameOf(test.param)); });
 

@@ -108,11 +108,11 @@ void expectEqualBytes(const Made& what) {
   EXPECT_EQ(different, 0u) << "of " << first.size() << " bytes; the first is " << where;
 }
 
-class EqualBytesOfACloth : public InEveryWorld {};
+using EqualBytesOfACloth = InEveryWorld;
 TEST_P(EqualBytesOfACloth, WithAllThatABodyMayHave) { expectEqualBytes<FurnishedScene>(GetParam()); }
 WETCLOTH_IN_EVERY_WORLD(EqualBytesOfACloth);
 
-class EqualBytes : public testing::TestWithParam<Case> {};
+using EqualBytes = testing::TestWithParam<Case>;
 TEST_P(EqualBytes, OfEqualStates) { expectEqualBytes<StateScene>(GetParam()); }
 
 std::vector<Case> cases() {

@@ -20,7 +20,7 @@ using state_scene::Story;
 
 constexpr int kStepsAfter = 50;
 
-class SaveAndRestore : public testing::TestWithParam<Case> {};
+using SaveAndRestore = testing::TestWithParam<Case>;
 
 // Two cloths in the deformable world: Bullet shuffles their contacts by random numbers that go on from world to world
 // within a process, so no two runs of that are alike, saved or not (docs/bullet_notes.md).
@@ -91,7 +91,7 @@ TEST(SaveAndRestoreASleeper, WhichSleepsWhenItIsSaved) {
   EXPECT_FALSE(late.cloth().body().isActive());
 }
 
-class SaveAndRestoreACloth : public InEveryWorld {};
+using SaveAndRestoreACloth = InEveryWorld;
 
 TEST_P(SaveAndRestoreACloth, WithAllThatABodyMayHave) {
   for (const int saveAt : {0, 1, 20}) {

@@ -38,7 +38,7 @@ void lengthenAlongX(btSoftBody& body) {
   }
 }
 
-class ShapeChanged : public InEveryWorld {};
+using ShapeChanged = InEveryWorld;
 
 TEST_P(ShapeChanged, WhileItRan) {
   for (const Story story : {Story::hanging, Story::onRigid}) {

@@ -18,7 +18,7 @@ constexpr double kRounding = kIsDouble ? 1e-14 : 1e-6;
 
 double massOf(btSoftBody& body, int node) { return 1 / double(body.m_nodes[node].m_im); }
 
-class NodeMasses : public InEveryWorld {};
+using NodeMasses = InEveryWorld;
 
 TEST_P(NodeMasses, AreDryMassPlusWater) {
   BodyScene scene(GetParam(), hangingPatch(5));

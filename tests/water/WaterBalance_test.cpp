@@ -42,7 +42,7 @@ void swap(wetcloth::WetCloth& cloth, const wetcloth::Step&) {
   }
 }
 
-class WaterBalance : public InEveryWorld {};
+using WaterBalance = InEveryWorld;
 
 TEST_P(WaterBalance, HoldsInEveryStep) {
   BodyScene scene(GetParam(), hangingPatch(5));

@@ -93,7 +93,7 @@ wetcloth::Diffusion::Parameters fast() {
   return parameters;
 }
 
-class WaterMomentumAcrossEffects : public InEveryWorld {};
+using WaterMomentumAcrossEffects = InEveryWorld;
 
 TEST_P(WaterMomentumAcrossEffects, WhatArrivesAndWicksOnAtOnce) {
   OneCloth one(GetParam());
@@ -216,7 +216,7 @@ wetcloth::ContactWetting::Parameters betweenCloths(double rate) {
   return parameters;
 }
 
-class WaterMomentumBetweenCloths : public InEveryWorld {};
+using WaterMomentumBetweenCloths = InEveryWorld;
 
 TEST_P(WaterMomentumBetweenCloths, GivenAndTakenInTheStepInWhichItArrives) {
   for (const bool hasFirst : {true, false}) {

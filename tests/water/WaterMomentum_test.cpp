@@ -57,7 +57,7 @@ wetcloth::Absorption::Parameters rain(const wetcloth::WetCloth& cloth, const btV
   return parameters;
 }
 
-class WaterMomentum : public InEveryWorld {};
+using WaterMomentum = InEveryWorld;
 
 // Only our own part of the step, so that nothing else changes velocities.
 TEST_P(WaterMomentum, IsConservedWhenWaterLands) {

@@ -73,7 +73,7 @@ TEST(WaterPace, IsNoSlowerThanItsLongestStep) {
   EXPECT_EQ(WaterPace::exact().substepsOf(1.0 / 240), 1);
 }
 
-class WaterPaceInWorld : public InEveryWorld {};
+using WaterPaceInWorld = InEveryWorld;
 WETCLOTH_IN_EVERY_WORLD(WaterPaceInWorld);
 
 TEST_P(WaterPaceInWorld, AfterAllSubstepsOfATurnTheLawHolds) {

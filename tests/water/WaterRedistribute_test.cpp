@@ -84,7 +84,7 @@ std::vector<double> turned(const wetcloth::Water& water) {
   return held;
 }
 
-class WaterMove : public InEveryWorld {};
+using WaterMove = InEveryWorld;
 
 TEST_P(WaterMove, TakesTheVelocityOfTheNodeThatItLeaves) {
   Moving moving(GetParam());
@@ -167,7 +167,7 @@ TEST_P(WaterMove, MovesNoMoreThanThereIsAndNothingToItself) {
 
 WETCLOTH_IN_EVERY_WORLD(WaterMove);
 
-class WaterRedistribute : public InEveryWorld {};
+using WaterRedistribute = InEveryWorld;
 
 TEST_P(WaterRedistribute, ConservesMass) {
   Moving moving(GetParam());

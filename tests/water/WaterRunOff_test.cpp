@@ -60,7 +60,7 @@ struct Struck {
   wetcloth::WetCloth& cloth;
 };
 
-class WaterRunOff : public InEveryWorld {};
+using WaterRunOff = InEveryWorld;
 
 TEST_P(WaterRunOff, LeavesTheMomentumOfAnInelasticImpact) {
   Struck struck(GetParam());

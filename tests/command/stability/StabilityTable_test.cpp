@@ -33,7 +33,7 @@ const stability::HardCase& hardCaseNamed(const std::string& name) {
   throw std::logic_error("no case " + name);
 }
 
-class StabilityTable : public testing::TestWithParam<std::string> {};
+using StabilityTable = testing::TestWithParam<std::string>;
 
 const stability::StoredOutcomes& storedOutcomes() {
   static const stability::StoredOutcomes outcomes = stability::StoredOutcomes::read(
@@ -144,7 +144,7 @@ struct NaiveMethod {
   const char* bound;  ///< that it fails; empty: any
 };
 
-class StabilityOfNaiveMethods : public testing::TestWithParam<NaiveMethod> {};
+using StabilityOfNaiveMethods = testing::TestWithParam<NaiveMethod>;
 
 TEST_P(StabilityOfNaiveMethods, FailsWhereOursHolds) {
   const stability::HardCase& hardCase = hardCaseNamed(GetParam().hardCase);

@@ -15,7 +15,7 @@ namespace {
 using namespace viewer_scene;
 using viewer::LiveScene;
 
-class EffectSwitchesIn : public InEachWorld {};
+using EffectSwitchesIn = InEachWorld;
 INSTANTIATE_TEST_SUITE_P(EachWorld, EffectSwitchesIn, allWorlds, worldName);
 
 void expectLedgerClosed(const LiveScene& live) {

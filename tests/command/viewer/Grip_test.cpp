@@ -13,7 +13,7 @@ using viewer::Grip;
 using viewer::LiveScene;
 using viewer::Side;
 
-class GripIn : public InEachWorld {};
+using GripIn = InEachWorld;
 INSTANTIATE_TEST_SUITE_P(EachWorld, GripIn, allWorlds, worldName);
 
 /// Of motion and height [J].

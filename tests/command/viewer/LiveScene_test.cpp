@@ -22,7 +22,7 @@ using viewer::Side;
 const double notANumber = std::numeric_limits<double>::quiet_NaN();
 const double infinity = std::numeric_limits<double>::infinity();
 
-class LiveSceneIn : public InEachWorld {};
+using LiveSceneIn = InEachWorld;
 INSTANTIATE_TEST_SUITE_P(EachWorld, LiveSceneIn, allWorlds, worldName);
 
 TEST_P(LiveSceneIn, RunsAsTheSceneDoesWithoutIt) {

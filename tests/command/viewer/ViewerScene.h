@@ -65,7 +65,7 @@ inline const viewer::EffectSwitches::Switch& switchOf(const viewer::LiveScene& l
 inline viewer::Ray rayAt(double x, double y) { return {btVector3(btScalar(x), btScalar(y), 5), btVector3(0, 0, -1)}; }
 
 /// Each of Bullet's three worlds.
-class InEachWorld : public testing::TestWithParam<command::WorldKind> {};
+using InEachWorld = testing::TestWithParam<command::WorldKind>;
 
 inline const auto allWorlds =
     testing::Values(command::WorldKind::softRigid, command::WorldKind::softMultiBody, command::WorldKind::deformable);
