@@ -6,8 +6,6 @@
 
 #include <BulletSoftBody/btSoftBodyInternals.h>
 
-#include <new>
-
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
@@ -24,8 +22,9 @@ bool isPlane(const btCollisionObject& object) {
 // Lists contacts of one object by a closed form of its distance.
 class ClosedForm {
  public:
-  ClosedForm(btSoftBody& body, const btCollisionObject& object, const btCollisionShape& shape, const btTransform& pose)
-      : m_body(body), m_object(object), m_shape(shape), m_pose(pose) {
+  ClosedForm(btSoftBody& body, ContactList& contacts, const btCollisionObject& object, const btCollisionShape& shape,
+             const btTransform& pose)
+      : m_body(body), m_contacts(contacts), m_object(object), m_shape(shape), m_pose(pose) {
     m_rigid = const_cast<btRigidBody*>(btRigidBody::upcast(&object));
     m_margin = body.getCollisionShape()->getMargin();
     m_friction = body.m_cfg.kDF * object.getFriction();
@@ -40,9 +39,8 @@ class ClosedForm {
   }
 
  private:
-  // A contact is nearly 800 bytes, most of them arrays for multibodies: it is made in its place.
   void list(btSoftBody::Node& node, const btVector3& normal, btScalar depth) const {
-    btSoftBody::RContact& contact = *new (&m_body.m_rcontacts.expandNonInitializing()) btSoftBody::RContact();
+    btSoftBody::RContact& contact = m_contacts.add(m_body);
     const btScalar dt = m_body.m_sst.sdt;
     contact.m_cti.m_colObj = &m_object;
     contact.m_cti.m_normal = normal;
@@ -71,6 +69,7 @@ class ClosedForm {
   }
 
   btSoftBody& m_body;
+  ContactList& m_contacts;
   const btCollisionObject& m_object;
   const btCollisionShape& m_shape;
   const btTransform& m_pose;
@@ -81,6 +80,11 @@ class ClosedForm {
 };
 
 }  // namespace
+
+void RigidDetection::begin(btSoftBody& body) {
+  m_plane = nullptr;
+  m_contacts.begin(body);
+}
 
 void RigidDetection::detect(btSoftBody& body, LocalNodes& nodes, const btCollisionObjectWrapper& object) {
   const btCollisionObject& root = *object.getCollisionObject();
@@ -95,7 +99,7 @@ void RigidDetection::detect(btSoftBody& body, LocalNodes& nodes, const btCollisi
   btVector3 largest;
   shape.getAabb(pose, least, largest);
   if (hasDistance(shape)) {
-    const ClosedForm form(body, root, shape, pose);
+    const ClosedForm form(body, m_contacts, root, shape, pose);
     nodes.forEachPredictedIn(least - around, largest + around, [&](btSoftBody::Node& node) { form.test(node); });
     return;
   }
