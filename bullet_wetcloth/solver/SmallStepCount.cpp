@@ -28,8 +28,7 @@ int SmallStepCount::inSteadySteps(const ClothSolver::Parameters& parameters, dou
 }
 
 int SmallStepCount::of(const ClothSolver::Parameters& parameters, double dt) const {
-  if (!(m_step > 0)) return inSteadySteps(parameters, dt);
-  const bool isLikeTheLast = std::fabs(dt - m_step) <= kSameLength * m_step;
+  const bool isLikeTheLast = m_step > 0 && std::fabs(dt - m_step) <= kSameLength * m_step;
   if (!isLikeTheLast) return usualCount(parameters, dt);
   const double most = std::max(std::floor(2 * dt / m_length * (1 + kSameLength)), 1.0);
   return static_cast<int>(std::min<double>(inSteadySteps(parameters, dt), most));
