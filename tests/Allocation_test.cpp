@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Zlib
-// The step allocates nothing after its first turns. C++ allocations are counted by replacing operator new for the whole
-// test program; Bullet's own go through btAlignedAlloc and are not counted. Sanitizers bring an operator new of their
-// own, so there the count is left out.
+// The step allocates nothing after its first turns, nor does a world's whole step on ClothSolver. C++ allocations are
+// counted by replacing operator new for the whole test program; Bullet's own go through btAlignedAlloc and are not
+// counted. Sanitizers bring an operator new of their own, so there the count is left out.
 
+#include "tests/solver/SolverScene.h"
 #include "tests/support/BodyScene.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
 #include "tests/support/Patches.h"
+#include "tests/support/RigidBody.h"
 #include "tests/support/WaterCycle.h"
 
 #include <cstdlib>
@@ -45,6 +47,15 @@ namespace wetcloth_test::allocation_test {
 
 namespace {
 
+template <class Action>
+long long allocationsIn(Action action) {
+  g_allocations = 0;
+  g_counting = true;
+  action();
+  g_counting = false;
+  return g_allocations;
+}
+
 // Water that comes and goes fast, so that in each step every effect has something to do.
 void addWaterCycle(BodyScene& scene, wetcloth::WetCloth& cloth) {
   water_cycle::giveWater(scene.bullet().info(), btScalar(0.4));
@@ -73,11 +84,7 @@ class NoAllocation : public InEveryWorld {
 };
 
 TEST_P(NoAllocation, TheCounterCounts) {
-  g_allocations = 0;
-  g_counting = true;
-  const auto memory = std::make_unique<std::vector<double>>(100);
-  g_counting = false;
-  EXPECT_GE(g_allocations, 2);
+  EXPECT_GE(allocationsIn([] { std::make_unique<std::vector<double>>(100); }), 2);
 }
 
 TEST_P(NoAllocation, InTheStepAfterItsFirstTurns) {
@@ -99,13 +106,10 @@ TEST_P(NoAllocation, InTheStepAfterItsFirstTurns) {
   int quietSteps = 0;
   for (int step = 0; step < 240; ++step) {
     const long long factored = springs.factorizations();
-    g_allocations = 0;
-    g_counting = true;
-    wet.preTick(dt);
-    g_counting = false;
+    const long long allocations = allocationsIn([&] { wet.preTick(dt); });
     if (springs.factorizations() == factored) {
       ++quietSteps;
-      ASSERT_EQ(g_allocations, 0) << "in step " << step;
+      ASSERT_EQ(allocations, 0) << "in step " << step;
     }
     scene.world().stepSimulation(dt, 0);
   }
@@ -118,15 +122,51 @@ TEST_P(NoAllocation, InFillingAVertexBuffer) {
   const wetcloth::WetCloth& cloth = wet.add(scene.body());
   std::vector<float> floats(1000);
   const wetcloth::VertexBuffer buffer = {floats.data(), 100, {0, 10}, {3, 10}, {6, 10}, {9, 10}};
-  g_allocations = 0;
-  g_counting = true;
-  wetcloth::fillVertexBuffer(cloth, buffer);
-  g_counting = false;
-  EXPECT_EQ(g_allocations, 0);
+  EXPECT_EQ(allocationsIn([&] { wetcloth::fillVertexBuffer(cloth, buffer); }), 0);
   EXPECT_GT(floats.back(), 0);
 }
 
 WETCLOTH_IN_EVERY_WORLD(NoAllocation);
+
+class NoAllocationOnClothSolver : public testing::TestWithParam<WorldKind> {
+ protected:
+  void SetUp() override {
+    if (!WETCLOTH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer owns operator new";
+  }
+};
+INSTANTIATE_TEST_SUITE_P(, NoAllocationOnClothSolver, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
+                         [](const auto& test) { return std::string(nameOf(test.param)); });
+
+// A cloth that is held all around with a weight under it and a ball in it, and one that falls on the floor: contacts
+// with what moves and with what does not, an anchor, links that soften while water comes.
+TEST_P(NoAllocationOnClothSolver, InTheWholeStepOfTwoCloths) {
+  SolverScene scene(GetParam());
+  using Edge = wetcloth::ClothPatch::Edge;
+  wetcloth::ClothPatch held = levelPatch(10, 1);
+  held.pinnedEdges = {Edge::left, Edge::right, Edge::top, Edge::bottom};
+  wetcloth::ClothPatch lying = levelPatch(8, 0.5);
+  lying.origin.setY(btScalar(-0.97));
+  btSoftBody* const cloths[2] = {&scene.add(held), &scene.add(lying)};
+  RigidBody floor(scene.bullet(), box(2, 0.5, 2), 0, btVector3(0, btScalar(-1.5), 0));
+  RigidBody weight(scene.bullet(), box(0.02, 0.02, 0.02), btScalar(0.01), cloths[0]->m_nodes[22].m_x);
+  RigidBody ball(scene.bullet(), std::make_unique<btSphereShape>(btScalar(0.2)), btScalar(0.05),
+                 btVector3(0, btScalar(0.25), 0));
+  cloths[0]->appendAnchor(22, &weight.body(), true);
+  wetcloth::WetClothWorld wet(scene.bullet().world());
+  for (btSoftBody* const body : cloths) {
+    body->getCollisionShape()->setMargin(btScalar(0.02));
+    wetcloth::WetCloth& cloth = wet.add(*body, fabricOf(1, 3));
+    cloth.add<wetcloth::Absorption>();
+    cloth.add<wetcloth::Wind>();
+    cloth.add<wetcloth::WetStiffness>({0.8, 0.5, 1, 2});
+    cloth.add<wetcloth::Swelling>();
+  }
+  scene.step(90);
+  ASSERT_GT(cloths[0]->m_rcontacts.size(), 0);
+  ASSERT_GT(cloths[1]->m_rcontacts.size(), 0);
+  for (int step = 0; step < 120; ++step) ASSERT_EQ(allocationsIn([&] { scene.step(1); }), 0) << "in step " << step;
+  EXPECT_GT(wet.find(*cloths[0])->ledger().absorbed, 0);
+}
 
 }  // namespace
 }  // namespace wetcloth_test::allocation_test

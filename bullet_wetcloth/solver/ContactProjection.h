@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/solver/FixedContacts.h"
 #include "bullet_wetcloth/solver/LocalNodes.h"
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
@@ -14,7 +15,8 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 /// Contacts of a cloth's nodes with rigid bodies and links of multibodies, in small steps: the law of Bullet's own
-/// position solver, whose planes move with the bodies. Both sides feel it.
+/// position solver, whose planes move with the bodies. Both sides feel it; a link of a multibody as a rigid body does,
+/// where Bullet gives it half of the impulse, and none of the friction.
 ///
 /// What Bullet does once an iteration is done once a small step here. So of what it takes away in all iterations
 /// (slipping, depth of penetration), each small step takes its share.
@@ -28,39 +30,26 @@ class ContactProjection {
   void project(const MovingNodes& nodes, btScalar h);
 
  private:
-  // With what no impulse moves: its velocity is the same in all small steps.
-  struct FixedContact {
-    std::size_t slot;
-    btVector3 normal;
-    btVector3 velocity;  // of what is touched
-    btScalar offset;     // of the plane, which moves with it; places are those of the arrays
-    btScalar slips;      // share of the slipping that stays in a small step
-    btScalar recovers;   // share of the depth that goes in a small step
-  };
-  struct Contact {
-    std::size_t slot;
-    btVector3 normal;
-    btScalar offset;     // of the plane, which moves with the body; places are those of the arrays
+  struct Contact : PlaneContact {
     btMatrix3x3 moves;   // how far the node moves per distance to be taken away
-    btMatrix3x3 pushes;  // impulse per the same, times the small step [kg]
-    btScalar slips;      // share of the slipping that stays in a small step
-    btScalar recovers;   // share of the depth that goes in a small step
+    btMatrix3x3 pushes;  // impulse on the body per the same, times the small step [kg]
     btRigidBody* rigid;
     btVector3 arm;
     btMultiBodyLinkCollider* link;
-    std::size_t firstJacobian;  // of the link
+    std::size_t firstJacobian;  // of the link, in m_jacobians
   };
 
-  void projectFixed(const MovingNodes& nodes, btScalar h);
   void projectMovable(const MovingNodes& nodes, btScalar h);
-  void addJacobian(Contact& contact, const btVector3& place);
+  void addRigid(const PlaneContact& plane, const btSoftBody::RContact& listed, btRigidBody& rigid, btScalar dt);
+  void addLink(const PlaneContact& plane, const btSoftBody::Node& node, btMultiBodyLinkCollider& link);
   btVector3 velocityOf(const Contact& contact) const;
   void push(const Contact& contact, const btVector3& impulse);
 
-  std::vector<FixedContact> m_fixed;
+  FixedContacts m_fixed;
   std::vector<Contact> m_contacts;
   btScalar m_margin = 0;
-  std::vector<btScalar> m_jacobians;  // for each link that is touched: its Jacobian, and what a unit impulse does
+  std::vector<btScalar> m_jacobians;  // for each contact with a link and each axis: the point's velocity by those of
+                                      // the joints, and how these change by a unit impulse there
   btMultiBodyJacobianData m_scratch;
 };
 

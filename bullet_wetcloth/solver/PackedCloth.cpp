@@ -145,8 +145,7 @@ bool PackedCloth::predict(btScalar dt) {
   m_body.m_sst.velmrg = m_body.m_sst.sdt * 3;
   m_body.m_sst.radmrg = m_body.getCollisionShape()->getMargin();
   m_body.m_sst.updmrg = m_body.m_sst.radmrg * btScalar(0.25);
-  m_detection.begin();
-  m_body.m_rcontacts.resize(0);
+  m_detection.begin(m_body);
   m_body.m_scontacts.resize(0);
   m_isPredicted = m_body.m_sst.sdt > 0 && std::isfinite(m_body.m_sst.isdt) && m_nodes.take();
   if (!m_isPredicted) return false;

@@ -57,20 +57,27 @@ Family familyOf(const GridLink& link, int to, const NodeSlots::Grid& grid) {
 }
 
 // A link's pull: how far each end moves along the line between them, per inverse mass and length of that line. Its
-// stretch over its length, 1 - 1 / sqrt(q) with q = length^2 / restLength^2, is the Pade approximant of it at q = 1: to
-// 6e-5 between 0.8 and 1.3 times the length, to 4e-2 up to three times, and no root and no division by a length of 0.
+// stretch over its length, 1 - 1 / sqrt(q) with q = length^2 / restLength^2, is the Pade approximant of it at q = 1,
+// 4 / 5 (q^2 - 1) / ((q + 1)^2 - 4 / 5): to 6e-5 between 0.8 and 1.3 times the length, to 4e-2 up to three times, and
+// no root and no division by a length of 0.
+constexpr btScalar kPade = btScalar(0.8);
+
 template <class Lanes>
-WETCLOTH_INLINE Lanes pull(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& inverseMass,
-                           const Lanes& perRestSquared, const Lanes& softness, const Lanes& unfelt) {
+WETCLOTH_INLINE Lanes pull(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& perRestSquared,
+                           const Lanes& perStretch, const Lanes& unfelt) {
   const Lanes one = everywhere<Lanes>(1);
   const Lanes q = (x * x + y * y + z * z) * perRestSquared;
-  const Lanes qq = q * q;
-  const Lanes off = qq - one;
+  const Lanes above = q + one;
+  const Lanes off = (q - one) * above;
   const Lanes felt = choose(off * off > unfelt * perRestSquared, off, everywhere<Lanes>(0));
+  return felt * perStretch / (above * above - everywhere<Lanes>(kPade));
+}
+
+// What the approximant is multiplied with: it over w + a, where w / 2 is taken off a.
+template <class Lanes>
+WETCLOTH_INLINE Lanes pullPerStretch(const Lanes& inverseMass, const Lanes& softness) {
   const Lanes softened = everywhere<Lanes>(btScalar(0.5)) * inverseMass + softness;
-  const Lanes resistance = choose(softened > inverseMass, softened, inverseMass);
-  const Lanes below = one + everywhere<Lanes>(10) * q + everywhere<Lanes>(5) * qq;
-  return everywhere<Lanes>(4) * felt / (below * resistance);
+  return everywhere<Lanes>(kPade) / choose(softened > inverseMass, softened, inverseMass);
 }
 
 }  // namespace
@@ -88,6 +95,7 @@ void PackedLinks::reset(const btSoftBody& body, const NodeSlots& slots) {
   m_compliance.assign(m_restLength.size(), kNoLink);
   m_perRestSquared.assign(m_restLength.size(), 0);
   m_softness.assign(m_restLength.size(), kNoLink);
+  m_perStretch.assign(m_restLength.size(), 0);
   m_h = 0;
   m_corners.assign(m_batches.empty() ? 0 : slots.count + 1, Corner());
   for (PackedNodes::Lane& end : m_inverseMass) end.assign(m_batches.size() * kBatchLanes, 0);
@@ -202,7 +210,7 @@ struct PackedLinks::RunKernel {
     const btScalar* const inverseMassOfA = nodes.inverseMass + stretch.a;
     const btScalar* const inverseMassOfB = nodes.inverseMass + stretch.b;
     const btScalar* const perRestSquared = links.m_perRestSquared.data() + stretch.firstLane;
-    const btScalar* const softness = links.m_softness.data() + stretch.firstLane;
+    const btScalar* const perStretch = links.m_perStretch.data() + stretch.firstLane;
     const std::size_t lanes = stretch.lanes;
     const Lanes unfelt = everywhere<Lanes>(links.m_unfelt);
     for (std::size_t k = 0; k < lanes; k += kLaneCount<Lanes>) {
@@ -211,8 +219,7 @@ struct PackedLinks::RunKernel {
       const Lanes wa = load<Lanes>(inverseMassOfA + k);
       const Lanes wb = load<Lanes>(inverseMassOfB + k);
       const Lanes dx = bx - ax, dy = by - ay, dz = bz - az;
-      const Lanes share =
-          pull<Lanes>(dx, dy, dz, wa + wb, load<Lanes>(perRestSquared + k), load<Lanes>(softness + k), unfelt);
+      const Lanes share = pull<Lanes>(dx, dy, dz, load<Lanes>(perRestSquared + k), load<Lanes>(perStretch + k), unfelt);
       const Lanes toA = share * wa;
       const Lanes toB = share * wb;
       store(xa + k, ax + dx * toA);
@@ -221,6 +228,31 @@ struct PackedLinks::RunKernel {
       store(xb + k, bx - dx * toB);
       store(yb + k, by - dy * toB);
       store(zb + k, bz - dz * toB);
+    }
+  }
+};
+
+// What links resist with, by the masses that their nodes have now.
+struct PackedLinks::MassKernel {
+  PackedLinks& links;
+  const LinkedNodes& nodes;
+
+  template <class Lanes>
+  WETCLOTH_INLINE void run() const {
+    for (const Run& stretch : links.m_runs) {
+      run<Lanes>(nodes.inverseMass + stretch.a, nodes.inverseMass + stretch.b, stretch.firstLane, stretch.lanes);
+    }
+    const std::size_t inBatches = links.m_batches.size() * kBatchLanes;
+    run<Lanes>(links.m_inverseMass[0].data(), links.m_inverseMass[1].data(), links.m_firstBatchLane, inBatches);
+  }
+
+  template <class Lanes>
+  WETCLOTH_INLINE void run(const btScalar* wa, const btScalar* wb, std::size_t firstLane, std::size_t lanes) const {
+    const btScalar* const softness = links.m_softness.data() + firstLane;
+    btScalar* const perStretch = links.m_perStretch.data() + firstLane;
+    for (std::size_t k = 0; k < lanes; k += kLaneCount<Lanes>) {
+      const Lanes inverseMass = load<Lanes>(wa + k) + load<Lanes>(wb + k);
+      store(perStretch + k, pullPerStretch<Lanes>(inverseMass, load<Lanes>(softness + k)));
     }
   }
 };
@@ -258,8 +290,8 @@ struct PackedLinks::BatchKernel {
     transpose(way, axes);
     const Quad wa = load<Quad>(links.m_inverseMass[0].data() + inBatches);
     const Quad wb = load<Quad>(links.m_inverseMass[1].data() + inBatches);
-    const Quad share = pull(axes[0], axes[1], axes[2], wa + wb, load<Quad>(links.m_perRestSquared.data() + lane),
-                            load<Quad>(links.m_softness.data() + lane), everywhere<Quad>(links.m_unfelt));
+    const Quad share = pull(axes[0], axes[1], axes[2], load<Quad>(links.m_perRestSquared.data() + lane),
+                            load<Quad>(links.m_perStretch.data() + lane), everywhere<Quad>(links.m_unfelt));
     const Quad toA = share * wa;
     const Quad toB = share * wb;
     const Quad sharesOfA[4] = {splat<0>(toA), splat<1>(toA), splat<2>(toA), splat<3>(toA)};
@@ -286,13 +318,17 @@ void PackedLinks::scatter(const LinkedNodes& nodes) const {
 void PackedLinks::prepare(const LinkedNodes& nodes, btScalar h, btScalar rounding) {
   constexpr btScalar kPerStretch = 4;  // of q^2 - 1, for a small one
   m_unfelt = (kPerStretch * rounding) * (kPerStretch * rounding);
+  if (h != m_h) prepareLength(h);
   for (std::size_t k = 0; k < m_batches.size(); ++k) {
     for (std::size_t lane = 0; lane < kBatchLanes; ++lane) {
       m_inverseMass[0][k * kBatchLanes + lane] = nodes.inverseMass[m_batches[k].a[lane]];
       m_inverseMass[1][k * kBatchLanes + lane] = nodes.inverseMass[m_batches[k].b[lane]];
     }
   }
-  if (h == m_h) return;
+  runOnBestLanes(MassKernel{*this, nodes});
+}
+
+void PackedLinks::prepareLength(btScalar h) {
   m_h = h;
   const btScalar perStepSquared = static_cast<btScalar>(passes()) / (h * h);
   for (std::size_t k = 0; k < m_restLength.size(); ++k) {

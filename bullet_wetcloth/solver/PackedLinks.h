@@ -83,6 +83,8 @@ class PackedLinks {
   void addBatches(const btSoftBody& body, const NodeSlots& slots, const std::vector<int>& links);
   struct RunKernel;
   struct BatchKernel;
+  struct MassKernel;
+  void prepareLength(btScalar h);
   void solveRuns(const LinkedNodes& nodes, std::size_t first, std::size_t end, bool isBack);
   void gather(const LinkedNodes& nodes);
   void scatter(const LinkedNodes& nodes) const;
@@ -98,6 +100,7 @@ class PackedLinks {
   PackedNodes::Lane m_perRestSquared;  // [1/m^2]
   btScalar m_unfelt = 0;               // what is not felt of q^2 - 1, squared and times the length squared [m^2]
   PackedNodes::Lane m_softness;        // 1 / (k h^2) [1/kg]
+  PackedNodes::Lane m_perStretch;      // of the pull, with the masses of this step [kg]
   std::size_t m_firstBatchLane = 0;
   std::size_t m_inRuns = 0;
   // For batches: the nodes, one after the other, and the inverse masses of the links' ends, by lane.

@@ -6,8 +6,6 @@
 
 #include <BulletSoftBody/btSoftBodyInternals.h>
 
-#include <new>
-
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
@@ -24,25 +22,26 @@ bool isPlane(const btCollisionObject& object) {
 // Lists contacts of one object by a closed form of its distance.
 class ClosedForm {
  public:
-  ClosedForm(btSoftBody& body, const btCollisionObject& object, const btCollisionShape& shape, const btTransform& pose)
-      : m_body(body), m_object(object), m_shape(shape), m_pose(pose) {
+  ClosedForm(btSoftBody& body, ContactList& contacts, const btCollisionObject& object, const btCollisionShape& shape,
+             const btTransform& pose)
+      : m_body(body), m_contacts(contacts), m_object(object), m_shape(shape), m_pose(pose) {
     m_rigid = const_cast<btRigidBody*>(btRigidBody::upcast(&object));
+    m_isMovable = m_rigid && m_rigid->getInvMass() > 0;
     m_margin = body.getCollisionShape()->getMargin();
     m_friction = body.m_cfg.kDF * object.getFriction();
     m_hardness = object.isStaticOrKinematicObject() ? body.m_cfg.kKHR : body.m_cfg.kCHR;
   }
 
   void test(btSoftBody::Node& node) const {
-    if (node.m_battach || !(node.m_im > 0 || (m_rigid && m_rigid->getInvMass() > 0))) return;
-    const ShapeDistance found = distanceTo(m_shape, m_pose.invXform(node.m_x));
+    if (node.m_battach || !(node.m_im > 0 || m_isMovable)) return;
+    const ShapeDistance found = m_shape.distanceTo(m_pose.invXform(node.m_x));
     const btScalar depth = found.distance - m_margin;
     if (depth < 0) list(node, m_pose.getBasis() * found.normal, depth);
   }
 
  private:
-  // A contact is nearly 800 bytes, most of them arrays for multibodies: it is made in its place.
   void list(btSoftBody::Node& node, const btVector3& normal, btScalar depth) const {
-    btSoftBody::RContact& contact = *new (&m_body.m_rcontacts.expandNonInitializing()) btSoftBody::RContact();
+    btSoftBody::RContact& contact = m_contacts.add(m_body);
     const btScalar dt = m_body.m_sst.sdt;
     contact.m_cti.m_colObj = &m_object;
     contact.m_cti.m_normal = normal;
@@ -58,12 +57,12 @@ class ClosedForm {
     const bool sticks = (relative - normal * approach).length2() < held * held;
     contact.m_c3 = sticks ? 0 : 1 - m_friction;
     contact.m_c4 = m_hardness;
-    if (m_rigid) m_rigid->activate();
+    if (m_isMovable) m_rigid->activate();
   }
 
   btMatrix3x3 impulsePerWay(btScalar inverseMass, const btVector3& arm) const {
     const btScalar perStep = m_body.m_sst.isdt;
-    if (m_rigid && m_rigid->getInvMass() > 0) {
+    if (m_isMovable) {
       return impulseMatrix(inverseMass, *m_rigid, arm).scaled(btVector3(1, 1, 1) * perStep);
     }
     const btScalar mass = perStep / inverseMass;
@@ -71,16 +70,23 @@ class ClosedForm {
   }
 
   btSoftBody& m_body;
+  ContactList& m_contacts;
   const btCollisionObject& m_object;
-  const btCollisionShape& m_shape;
+  MeasuredShape m_shape;
   const btTransform& m_pose;
   btRigidBody* m_rigid;
+  bool m_isMovable;  // by an impulse
   btScalar m_margin;
   btScalar m_friction;
   btScalar m_hardness;
 };
 
 }  // namespace
+
+void RigidDetection::begin(btSoftBody& body) {
+  m_plane = nullptr;
+  m_contacts.begin(body);
+}
 
 void RigidDetection::detect(btSoftBody& body, LocalNodes& nodes, const btCollisionObjectWrapper& object) {
   const btCollisionObject& root = *object.getCollisionObject();
@@ -94,8 +100,8 @@ void RigidDetection::detect(btSoftBody& body, LocalNodes& nodes, const btCollisi
   btVector3 least;
   btVector3 largest;
   shape.getAabb(pose, least, largest);
-  if (hasDistance(shape)) {
-    const ClosedForm form(body, root, shape, pose);
+  if (MeasuredShape::isOne(shape)) {
+    const ClosedForm form(body, m_contacts, root, shape, pose);
     nodes.forEachPredictedIn(least - around, largest + around, [&](btSoftBody::Node& node) { form.test(node); });
     return;
   }

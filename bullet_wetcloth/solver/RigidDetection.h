@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/solver/ContactList.h"
 #include "bullet_wetcloth/solver/LocalNodes.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
@@ -15,12 +16,13 @@ inline namespace WETCLOTH_PRECISION {
 /// Bullet's own test of a node.
 class RigidDetection {
  public:
-  /// A new step: no object was looked at.
-  void begin() { m_plane = nullptr; }
+  /// A new step: no object was looked at, and nothing touches the body.
+  void begin(btSoftBody& body);
   /// Looks at an object, whose prediction by `nodes` has been made.
   void detect(btSoftBody& body, LocalNodes& nodes, const btCollisionObjectWrapper& object);
 
  private:
+  ContactList m_contacts;
   const btCollisionObject* m_plane = nullptr;  // Bullet shows a plane once for each of its two triangles
 };
 

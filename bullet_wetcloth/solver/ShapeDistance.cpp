@@ -36,20 +36,27 @@ ShapeDistance distanceToSphere(btScalar radius, const btVector3& point) {
 
 }  // namespace
 
-bool hasDistance(const btCollisionShape& shape) {
+bool MeasuredShape::isOne(const btCollisionShape& shape) {
   const int type = shape.getShapeType();
   return type == BOX_SHAPE_PROXYTYPE || type == SPHERE_SHAPE_PROXYTYPE || type == STATIC_PLANE_PROXYTYPE;
 }
 
-ShapeDistance distanceTo(const btCollisionShape& shape, const btVector3& point) {
-  if (shape.getShapeType() == BOX_SHAPE_PROXYTYPE) {
-    return distanceToBox(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin(), point);
+MeasuredShape::MeasuredShape(const btCollisionShape& shape)
+    : m_type(shape.getShapeType()), m_extent(0, 0, 0), m_size(0) {
+  if (m_type == BOX_SHAPE_PROXYTYPE) {
+    m_extent = static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin();
+  } else if (m_type == SPHERE_SHAPE_PROXYTYPE) {
+    m_size = static_cast<const btSphereShape&>(shape).getRadius();
+  } else {
+    m_extent = static_cast<const btStaticPlaneShape&>(shape).getPlaneNormal();
+    m_size = static_cast<const btStaticPlaneShape&>(shape).getPlaneConstant();
   }
-  if (shape.getShapeType() == SPHERE_SHAPE_PROXYTYPE) {
-    return distanceToSphere(static_cast<const btSphereShape&>(shape).getRadius(), point);
-  }
-  const btStaticPlaneShape& plane = static_cast<const btStaticPlaneShape&>(shape);
-  return {plane.getPlaneNormal().dot(point) - plane.getPlaneConstant(), plane.getPlaneNormal()};
+}
+
+ShapeDistance MeasuredShape::distanceTo(const btVector3& point) const {
+  if (m_type == BOX_SHAPE_PROXYTYPE) return distanceToBox(m_extent, point);
+  if (m_type == SPHERE_SHAPE_PROXYTYPE) return distanceToSphere(m_size, point);
+  return {m_extent.dot(point) - m_size, m_extent};
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -15,10 +15,21 @@ struct ShapeDistance {
   btVector3 normal;   ///< of length 1, outwards
 };
 
-/// Whether distanceTo() knows this shape: boxes, spheres and planes.
-bool hasDistance(const btCollisionShape& shape);
-/// Of a point in the shape's own frame [m], by the closed form.
-ShapeDistance distanceTo(const btCollisionShape& shape, const btVector3& point);
+/// A shape whose distance has a closed form: a box, a sphere or a plane.
+class MeasuredShape {
+ public:
+  /// Whether it is one of these.
+  static bool isOne(const btCollisionShape& shape);
+  /// For one of these, as it is now.
+  explicit MeasuredShape(const btCollisionShape& shape);
+  /// Of a point in the shape's own frame [m].
+  ShapeDistance distanceTo(const btVector3& point) const;
+
+ private:
+  int m_type;
+  btVector3 m_extent;  // half of a box's sides, or a plane's normal [m]
+  btScalar m_size;     // a sphere's radius, or how far a plane is from the origin [m]
+};
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

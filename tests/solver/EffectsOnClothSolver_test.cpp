@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -123,40 +124,70 @@ TEST(EffectsOnClothSolver, ADirectPushAfterTheStepOfTheEffectsCounts) {
   sail.bullet.remove(*other);
 }
 
+// How far the lower corner of a hanging cloth, whose links are springs of this stiffness [N/m], is below its place
+// after 5 s, with this much water and these effects [m].
+double dropOf(double stiffness, double saturation, const std::function<void(wetcloth::WetCloth&)>& addEffects) {
+  SolverScene scene(WorldKind::softRigid, kEarthGravity, smallSteps(20, stiffness));
+  btSoftBody& body = scene.add(hangingPatch(8));
+  body.m_cfg.kDP = btScalar(0.05);
+  wetcloth::WetClothWorld wet(scene.bullet().world());
+  wetcloth::WetCloth& cloth = wet.add(body);
+  cloth.setSaturation(saturation);
+  addEffects(cloth);
+  scene.step(300);
+  return -double(body.m_nodes[0].m_x.y());
+}
+
 TEST(EffectsOnClothSolver, WetWeightStretchesAHangingCloth) {
-  const auto lowest = [](double saturation) {
-    SolverScene scene(WorldKind::softRigid, kEarthGravity, smallSteps(20, 20));
-    btSoftBody& body = scene.add(hangingPatch(8));
-    body.m_cfg.kDP = btScalar(0.05);
-    wetcloth::WetClothWorld wet(scene.bullet().world());
-    wet.add(body).setSaturation(saturation);
-    scene.step(300);
-    return -double(body.m_nodes[0].m_x.y());
-  };
-  const double dry = lowest(0);
-  const double soaked = lowest(1);
+  const auto none = [](wetcloth::WetCloth&) {};
+  const double dry = dropOf(20, 0, none);
+  const double soaked = dropOf(20, 1, none);
   const double massRatio = 1 + wetcloth::Fabric::cotton().capacity;
   EXPECT_GT(dry, 0.004);
   EXPECT_NEAR(soaked / dry, massRatio, 0.1 * massRatio);
 }
 
 TEST(EffectsOnClothSolver, WetStiffnessSoftensItsLinks) {
-  const auto drop = [](double factor) {
-    SolverScene scene(WorldKind::softRigid, kEarthGravity, smallSteps(20, 200));
-    btSoftBody& body = scene.add(hangingPatch(8));
-    body.m_cfg.kDP = btScalar(0.05);
-    wetcloth::WetClothWorld wet(scene.bullet().world());
-    wetcloth::WetCloth& cloth = wet.add(body);
-    cloth.setSaturation(1);
-    wetcloth::WetStiffness::Parameters parameters;
-    parameters.wetStretch = factor;
-    parameters.wetBending = factor;
-    cloth.add<wetcloth::WetStiffness>(parameters);
-    scene.step(300);
-    return -double(body.m_nodes[0].m_x.y());
+  const auto soakedDrop = [](double factor) {
+    return dropOf(200, 1, [=](wetcloth::WetCloth& cloth) {
+      cloth.add<wetcloth::WetStiffness>({factor, factor, 1, 1});
+    });
   };
-  const double stiff = drop(1);
-  EXPECT_NEAR(drop(0.5) / stiff, 2, 0.15);
+  const double stiff = soakedDrop(1);
+  EXPECT_NEAR(soakedDrop(0.5) / stiff, 2, 0.15);
+}
+
+// One node of a long rope is wet, so that two links of 80 change: each by half of the strain, as its mean saturation is
+// a half. All links are looked at within 64 steps; it takes some more until nothing moves any longer.
+TEST(EffectsOnClothSolver, LinksFollowTheLengthsOfSwelling) {
+  constexpr int kLinks = 80;
+  constexpr int kWet = 41;
+  constexpr double kStrain = -0.2;
+  SolverScene scene(WorldKind::softRigid, kNoGravity);
+  btSoftBody& rope = scene.add(hangingRope(kLinks, 0.05, 0.002, false));
+  rope.m_cfg.kDP = btScalar(0.2);
+  wetcloth::WetClothWorld wet(scene.bullet().world());
+  wetcloth::WetCloth& cloth = wet.add(rope);
+  wetcloth::Swelling::Parameters parameters;
+  parameters.saturatedStrain = kStrain;
+  cloth.add<wetcloth::Swelling>(parameters);
+  scene.step(5);
+  std::vector<double> held(kLinks + 1, 0);
+  held[kWet] = cloth.capacity(kWet);
+  cloth.setHeld(held);
+  const auto lengthOver = [&](int first, int last) {
+    return double((rope.m_nodes[first].m_x - rope.m_nodes[last].m_x).length());
+  };
+  scene.step(64);
+  EXPECT_LT(lengthOver(kWet - 1, kWet + 1), 0.1 * (1 + 0.9 * kStrain / 2));
+  scene.step(240);
+  for (int k = 0; k < kLinks; ++k) {
+    const double strain = k == kWet - 1 || k == kWet ? kStrain / 2 : 0;
+    EXPECT_NEAR(lengthOver(k, k + 1), 0.05 * (1 + strain), 1e-4 * 0.05) << k;
+  }
+  cloth.setSaturation(0);
+  scene.step(64 + 240);
+  EXPECT_NEAR(lengthOver(kWet - 1, kWet + 1), 0.1, 1e-5);
 }
 
 }  // namespace

@@ -18,10 +18,10 @@
 namespace wetcloth_test::rigid_detection_test {
 namespace {
 
-using wetcloth::distanceTo;
+using wetcloth::MeasuredShape;
 
 void expectDistance(const btCollisionShape& shape, const btVector3& point, double distance, const btVector3& normal) {
-  const wetcloth::ShapeDistance found = distanceTo(shape, point);
+  const wetcloth::ShapeDistance found = MeasuredShape(shape).distanceTo(point);
   EXPECT_NEAR(double(found.distance), distance, 1e-6);
   EXPECT_LT(double((found.normal - normal).length()), 1e-6);
 }
@@ -38,10 +38,10 @@ TEST(ShapeDistance, OfASphereAndAPlane) {
   const btSphereShape sphere(2);
   expectDistance(sphere, btVector3(0, 0, -3), 1, btVector3(0, 0, -1));
   expectDistance(sphere, btVector3(1, 0, 0), -1, btVector3(1, 0, 0));
-  EXPECT_NEAR(double(distanceTo(sphere, btVector3(0, 0, 0)).normal.length()), 1, 1e-6);
+  EXPECT_NEAR(double(MeasuredShape(sphere).distanceTo(btVector3(0, 0, 0)).normal.length()), 1, 1e-6);
   const btStaticPlaneShape plane(btVector3(0, 1, 0), btScalar(0.5));
   expectDistance(plane, btVector3(7, 2, 0), 1.5, btVector3(0, 1, 0));
-  EXPECT_FALSE(wetcloth::hasDistance(btCapsuleShape(1, 1)));
+  EXPECT_FALSE(MeasuredShape::isOne(btCapsuleShape(1, 1)));
 }
 
 using ShapeMaker = std::function<std::unique_ptr<btCollisionShape>()>;
