@@ -40,6 +40,23 @@ WETCLOTH_INLINE Quad splat(const Quad& quad) {
 
 #undef WETCLOTH_SHUFFLE
 
+/// The lesser of each two; the second one where either is not a number.
+WETCLOTH_INLINE Quad lesser(const Quad& a, const Quad& b) {
+#if defined(__SSE__) && !defined(BT_USE_DOUBLE_PRECISION)
+  return __builtin_ia32_minps(a, b);
+#else
+  return a < b ? a : b;
+#endif
+}
+/// The greater of each two; the second one where either is not a number.
+WETCLOTH_INLINE Quad greater(const Quad& a, const Quad& b) {
+#if defined(__SSE__) && !defined(BT_USE_DOUBLE_PRECISION)
+  return __builtin_ia32_maxps(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+
 #else
 
 /// Four numbers as one.

@@ -2,6 +2,7 @@
 #include "bullet_wetcloth/solver/ClothSolver.h"
 
 #include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/solver/ClothGuard.h"
 #include "bullet_wetcloth/solver/PackedCloth.h"
 #include "bullet_wetcloth/solver/SmallStepCount.h"
 #include "bullet_wetcloth/solver/WhyNotTaken.h"
@@ -30,6 +31,13 @@ void requireValid(const ClothSolver::Parameters& parameters) {
     rejectValue("ClothSolver.tethers", parameters.tethers, "in [0, 8]");
   }
   if (!(parameters.tetherScale >= 1)) rejectValue("ClothSolver.tetherScale", parameters.tetherScale, ">= 1");
+  if (!parameters.guard) return;
+  requireNotNegative("ClothSolver.guard.thickness", parameters.guard->thickness);
+  requireNotNegative("ClothSolver.guard.friction", parameters.guard->friction);
+  constexpr int kMostAhead = 100;
+  if (parameters.guard->every < 1 || parameters.guard->every > kMostAhead) {
+    rejectValue("ClothSolver.guard.every", parameters.guard->every, "in [1, 100]");
+  }
 }
 
 // All that live. Of a body only the address of its solver is known, which may be of any class.
@@ -84,12 +92,16 @@ class ClothSolver::Impl {
     if (logger) logger(message);
   }
 
+  void solveGuarded(const btAlignedObjectArray<btSoftBody*>& bodies);
   void warnOfBadNode(Taken& taken) const;
   void warnOfSmallSteps(Taken& taken) const;
 
   Parameters parameters;
   std::vector<std::unique_ptr<Taken>> cloths;  // of bodies that are in the world
   std::vector<std::unique_ptr<Taken>> before;  // room for those of the step before, so that no step allocates
+  ClothGuard guard;
+  std::vector<PackedCloth*> guarded;            // in this step
+  std::vector<ClothGuard::Cloth> guardedNodes;  // theirs
   SmallStepCallback callback;
   std::function<void(const std::string&)> logger = [](const std::string& message) { std::clog << message << '\n'; };
 };
@@ -163,6 +175,9 @@ PackedNodes* ClothSolver::packedNodes(const btSoftBody& body) {
   return taken && !taken->cloth.hasNewMesh() ? &taken->cloth.nodes() : nullptr;
 }
 
+ClothSolver::GuardTotals ClothSolver::guardTotals() const { return m_impl->guard.totals(); }
+void ClothSolver::resetGuardTotals() { m_impl->guard.resetTotals(); }
+
 void ClothSolver::setSmallStepCallback(SmallStepCallback callback) { m_impl->callback = std::move(callback); }
 void ClothSolver::setLog(std::function<void(const std::string&)> log) { m_impl->logger = std::move(log); }
 
@@ -224,13 +239,45 @@ void ClothSolver::processCollision(btSoftBody* body, btSoftBody* other) {
   btDefaultSoftBodySolver::processCollision(body, other);
 }
 
+// All cloths take each small step together, so that they can be kept apart after it.
+void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& bodies) {
+  guarded.clear();
+  guardedNodes.clear();
+  int count = 0;
+  for (int k = 0; k < bodies.size(); ++k) {
+    Taken* const taken = bodies[k]->isActive() ? find(*bodies[k]) : nullptr;
+    if (!taken || !taken->cloth.beginSmallSteps(parameters)) continue;
+    guarded.push_back(&taken->cloth);
+    guardedNodes.push_back(taken->cloth.guarded());
+    count = std::max(count, taken->cloth.smallSteps());
+  }
+  if (guarded.empty()) return;
+  guard.begin(guardedNodes, *parameters.guard);
+  for (int k = 0; k < count; ++k) {
+    for (PackedCloth* const cloth : guarded) {
+      if (k < cloth->smallSteps()) cloth->takeSmallStep(k);
+    }
+    guard.hold();
+    for (PackedCloth* const cloth : guarded) {
+      if (k < cloth->smallSteps()) cloth->show(callback, k);
+    }
+  }
+  for (PackedCloth* const cloth : guarded) cloth->endSmallSteps();
+}
+
 void ClothSolver::solveConstraints(btScalar) {
+  const bool isGuarded = m_impl->parameters.guard.has_value();
   for (int k = 0; k < m_softBodySet.size(); ++k) {
     btSoftBody& body = *m_softBodySet[k];
     if (!body.isActive()) continue;
     Impl::Taken* const taken = m_impl->find(body);
-    taken ? taken->cloth.solve(m_impl->parameters, m_impl->callback) : body.solveConstraints();
+    if (!taken) {
+      body.solveConstraints();
+    } else if (!isGuarded) {
+      taken->cloth.solve(m_impl->parameters, m_impl->callback);
+    }
   }
+  if (isGuarded) m_impl->solveGuarded(m_softBodySet);
 }
 
 void ClothSolver::updateSoftBodies() {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,26 @@ class StateArchive;
 /// It outlives the world. Bodies may be added, removed, cut and changed between steps.
 class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
  public:
+  /// What keeps cloths from passing through themselves and each other: docs/guard.md.
+  struct Guard {
+    /// Nearer than that layers do not approach, and slowly part [m], >= 0; at most half of the mean edge counts.
+    double thickness = 0.002;
+    bool self = true;       ///< a cloth and itself
+    bool others = true;     ///< the cloths that the solver has taken, among each other
+    int every = 5;          ///< for so many small steps ahead nodes are expected on their way, [1, 100]
+    double friction = 0.3;  ///< between layers, coefficient, >= 0
+  };
+  /// What the guard has done since the start, or since resetGuardTotals().
+  struct GuardTotals {
+    long long looks = 0;       ///< small steps in which it looked for what may meet
+    long long candidates = 0;  ///< pairs that it found there
+    long long pairs = 0;       ///< of these, what it held apart until the next look
+    long long stopped = 0;     ///< nodes that were slowed because nothing else kept them apart, each small step counts
+    long long halts = 0;       ///< small steps in which all cloths stood still
+    long long forced = 0;      ///< pairs that imposed nodes (pins) drove through each other, or might have
+    long long meeting = 0;     ///< pairs that met at the last look, and so may pass
+  };
+
   /// What can be set, with units and ranges.
   struct Parameters {
     /// In 1/60 s, [1, 1000]; a shorter step of Bullet's has fewer, a longer one more, up to 1000, so that they are
@@ -47,6 +68,8 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
     /// How long tethers are, over the shortest way along the links at rest, [1, inf): 1.05 leaves a cloth that its
     /// weight stretches 5 %.
     double tetherScale = 1;
+    /// Keeps cloths from passing through themselves and each other; none: it does not.
+    std::optional<Guard> guard = std::nullopt;
   };
 
   /// What the application sees of a body after each small step.
@@ -84,6 +107,11 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   /// most the inverse of stiffness and half the sum of both ends' inverse masses, for every link. As the body was in
   /// the last step; 1 when it was not taken. A link that does not stretch needs none.
   int smallStepsFor(const btSoftBody& body) const;
+
+  /// What the guard has done.
+  GuardTotals guardTotals() const;
+  /// Counts from here on.
+  void resetGuardTotals();
 
   /// Scales the stiffness of each link of a body that is taken, in the order of btSoftBody::m_links, without touching
   /// its material: factors > 0, or none at all. `revision` tells this call's factors from another's: with that of the

@@ -70,6 +70,8 @@ void PackedCloth::takeMesh() {
   m_counts[2] = m_body.m_faces.size();
   const NodeSlots slots = findSlots(m_body);
   m_tiles = slots.tiles;
+  m_grid = slots.grid;
+  m_guardMesh.reset();
   m_nodes.reset(slots);
   m_links.reset(m_body, slots);
   m_normals.reset(m_body, slots);
@@ -133,8 +135,19 @@ int PackedCloth::smallStepsFor() const {
   return std::max(1, static_cast<int>(std::ceil(std::sqrt(most) / ClothSolver::kSmallStepsPer * (1 - kCountRounding))));
 }
 
+// As an author may leave it: some link is half as long again as at rest, or half as long.
+bool PackedCloth::isCrumpled() const {
+  constexpr btScalar kFar = btScalar(0.5);
+  for (int k = 0; k < m_body.m_links.size(); ++k) {
+    const btSoftBody::Link& link = m_body.m_links[k];
+    const btScalar length = (link.m_n[1]->m_x - link.m_n[0]->m_x).length();
+    if (std::fabs(length - link.m_rl) > kFar * link.m_rl) return true;
+  }
+  return false;
+}
+
 int PackedCloth::smallStepsIn(const ClothSolver::Parameters& parameters, double dt) const {
-  return m_smallSteps.of(parameters, dt * static_cast<double>(m_body.m_cfg.timescale));
+  return m_smallSteps.of(parameters, dt * static_cast<double>(m_body.m_cfg.timescale), isCrumpled());
 }
 
 // --- the step -------------------------------------------------------------------------------------------------------
@@ -200,46 +213,56 @@ btScalar PackedCloth::rounding() const {
 }
 
 void PackedCloth::solve(const ClothSolver::Parameters& parameters, const ClothSolver::SmallStepCallback& callback) {
-  if (!m_isPredicted) return;
-  const double sdt = static_cast<double>(m_body.m_sst.sdt);
-  const int count = m_smallSteps.of(parameters, sdt);
-  m_smallSteps.had(sdt, count);
-  const btScalar keeps = std::pow(std::max(1 - m_body.m_cfg.kDP, btScalar(0)), 1 / static_cast<btScalar>(count));
-  const btScalar push = largestPush(m_body) / static_cast<btScalar>(count);
-  const SmallStep step = {m_body.m_sst.sdt / static_cast<btScalar>(count), m_body.m_worldInfo->m_gravity, keeps, push};
-  const MovingNodes nodes = m_nodes.moving();
-  const LinkedNodes linked = {{nodes.position[0], nodes.position[1], nodes.position[2]}, nodes.inverseMass};
-  m_links.prepare(linked, step.h, rounding());
-  m_anchors.prepare(m_body, m_nodes);
-  m_contacts.prepare(m_body, m_nodes, count);
-  m_tethers.follow(m_body, m_nodes, parameters.tethers, static_cast<btScalar>(parameters.tetherScale));
-  for (int k = 0; k < count; ++k) {
-    solveSmallStep(step, k == 0);
-    if (callback) {
-      callback({m_body,
-                k,
-                step.h,
-                m_nodes.slots(),
-                {linked.position[0], linked.position[1], linked.position[2]},
-                m_nodes.origin()});
-    }
+  if (!beginSmallSteps(parameters)) return;
+  for (int k = 0; k < m_count; ++k) {
+    takeSmallStep(k);
+    show(callback, k);
   }
-  step.end(nodes);
-  m_isSolved = true;
+  endSmallSteps();
+}
+
+bool PackedCloth::beginSmallSteps(const ClothSolver::Parameters& parameters) {
+  if (!m_isPredicted) return false;
+  const double sdt = static_cast<double>(m_body.m_sst.sdt);
+  m_count = m_smallSteps.of(parameters, sdt, !m_smallSteps.hasStepped() && isCrumpled());
+  m_smallSteps.had(sdt, m_count);
+  const btScalar count = static_cast<btScalar>(m_count);
+  const btScalar keeps = std::pow(std::max(1 - m_body.m_cfg.kDP, btScalar(0)), 1 / count);
+  m_step = {m_body.m_sst.sdt / count, m_body.m_worldInfo->m_gravity, keeps, largestPush(m_body) / count};
+  m_links.prepare(linked(), m_step.h, rounding());
+  m_anchors.prepare(m_body, m_nodes);
+  m_contacts.prepare(m_body, m_nodes, m_count);
+  m_tethers.follow(m_body, m_nodes, parameters.tethers, static_cast<btScalar>(parameters.tetherScale));
+  m_isGuarded = parameters.guard.has_value();
+  if (m_isGuarded) m_pins.spread(m_nodes, m_body.m_sst.sdt);
+  return true;
+}
+
+void PackedCloth::show(const ClothSolver::SmallStepCallback& callback, int index) {
+  if (!callback) return;
+  const LinkedNodes nodes = linked();
+  callback({m_body,
+            index,
+            m_step.h,
+            m_nodes.slots(),
+            {nodes.position[0], nodes.position[1], nodes.position[2]},
+            m_nodes.origin()});
 }
 
 // What holds a cloth to rigid bodies comes between; without it a tile's nodes are moved and linked in one go, while
 // they are in a cache.
-void PackedCloth::solveSmallStep(const SmallStep& step, bool isFirst) {
+void PackedCloth::takeSmallStep(int index) {
   const MovingNodes nodes = m_nodes.moving();
-  const LinkedNodes linked = {{nodes.position[0], nodes.position[1], nodes.position[2]}, nodes.inverseMass};
+  const LinkedNodes links = linked();
   const std::size_t tileSize = nodes.count / m_tiles;
-  const auto advance = [&](std::size_t tile) { step.advance(nodes, isFirst, tile * tileSize, (tile + 1) * tileSize); };
-  const auto link = [&](std::size_t tile) { m_links.solveTile(linked, tile); };
+  const auto advance = [&](std::size_t tile) {
+    m_step.advance(nodes, index == 0, tile * tileSize, (tile + 1) * tileSize);
+  };
+  const auto link = [&](std::size_t tile) { m_links.solveTile(links, tile); };
   if (m_anchors.size() + m_contacts.size() > 0) {
     forEachPart(m_tiles, advance);
-    m_anchors.project(nodes, step.h);
-    m_contacts.project(nodes, step.h);
+    m_anchors.project(nodes, m_step.h);
+    m_contacts.project(nodes, m_step.h);
     forEachPart(m_tiles, link);
   } else {
     forEachPart(m_tiles, [&](std::size_t tile) {
@@ -247,9 +270,25 @@ void PackedCloth::solveSmallStep(const SmallStep& step, bool isFirst) {
       link(tile);
     });
   }
-  m_links.solveOthers(linked);
-  if (m_links.passes() > 1) forEachPart(m_tiles, [&](std::size_t tile) { m_links.solveTileBack(linked, tile); });
+  m_links.solveOthers(links);
+  if (m_links.passes() > 1) forEachPart(m_tiles, [&](std::size_t tile) { m_links.solveTileBack(links, tile); });
   m_tethers.project(nodes);
+}
+
+void PackedCloth::endSmallSteps() {
+  m_step.end(m_nodes.moving());
+  m_isGuarded ? m_pins.end(m_nodes) : m_pins.forget();
+  m_isSolved = true;
+}
+
+LinkedNodes PackedCloth::linked() {
+  const MovingNodes nodes = m_nodes.moving();
+  return {{nodes.position[0], nodes.position[1], nodes.position[2]}, nodes.inverseMass};
+}
+
+ClothGuard::Cloth PackedCloth::guarded() {
+  if (!m_guardMesh) m_guardMesh = std::make_unique<GuardMesh>(guardMeshOf(m_body, m_grid));
+  return {m_guardMesh.get(), m_nodes.moving(), m_nodes.slots(), m_nodes.nodeCount(), m_nodes.origin()};
 }
 
 void PackedCloth::finish() {
@@ -270,6 +309,7 @@ void PackedCloth::transferState(StateArchive& archive) {
   archive.growingArray(m_stiffnessFactors);
   archive.value(m_nextLink, m_stiffness, m_dt, m_stiffnessRevision);
   m_smallSteps.transferState(archive);
+  m_pins.transferState(archive);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -3,11 +3,13 @@
 
 #include "bullet_wetcloth/Precision.h"
 #include "bullet_wetcloth/solver/AnchorProjection.h"
+#include "bullet_wetcloth/solver/ClothGuard.h"
 #include "bullet_wetcloth/solver/ClothSolver.h"
 #include "bullet_wetcloth/solver/ContactProjection.h"
 #include "bullet_wetcloth/solver/LocalNodes.h"
 #include "bullet_wetcloth/solver/NodeNormals.h"
 #include "bullet_wetcloth/solver/PackedLinks.h"
+#include "bullet_wetcloth/solver/PinnedWays.h"
 #include "bullet_wetcloth/solver/RigidDetection.h"
 #include "bullet_wetcloth/solver/SmallStepCount.h"
 #include "bullet_wetcloth/solver/Tethers.h"
@@ -16,6 +18,8 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace wetcloth {
@@ -56,8 +60,16 @@ class PackedCloth {
   bool predict(btScalar dt);
   /// Finds the contacts with a rigid body or a link of a multibody.
   void collide(const btCollisionObjectWrapper& object);
-  /// The small steps.
+  /// All small steps.
   void solve(const ClothSolver::Parameters& parameters, const ClothSolver::SmallStepCallback& callback);
+  /// The same, one by one. False: there are none in this step.
+  bool beginSmallSteps(const ClothSolver::Parameters& parameters);
+  int smallSteps() const { return m_count; }
+  void takeSmallStep(int index);
+  void show(const ClothSolver::SmallStepCallback& callback, int index);
+  void endSmallSteps();
+  /// What a guard needs of it between them.
+  ClothGuard::Cloth guarded();
   /// Writes back what Bullet and applications read.
   void finish();
 
@@ -67,14 +79,16 @@ class PackedCloth {
   bool linksSeemChanged(const ClothSolver::Parameters& parameters);
   btScalar complianceOf(const btSoftBody::Link& link, std::size_t index,
                         const ClothSolver::Parameters& parameters) const;
-  void solveSmallStep(const SmallStep& step, bool isFirst);
+  bool isCrumpled() const;
   btScalar rounding() const;
+  LinkedNodes linked();
   void updateBounds();
   void updateFaceTree();
 
   btSoftBody& m_body;
   LocalNodes m_nodes;
   std::size_t m_tiles = 1;  // of the nodes' slots
+  std::optional<NodeSlots::Grid> m_grid;
   PackedLinks m_links;
   NodeNormals m_normals;
   RigidDetection m_detection;
@@ -82,6 +96,11 @@ class PackedCloth {
   AnchorProjection m_anchors;
   Tethers m_tethers;
   SmallStepCount m_smallSteps;
+  SmallStep m_step = {};  // each of this step
+  int m_count = 0;
+  std::unique_ptr<GuardMesh> m_guardMesh;  // while it is guarded
+  PinnedWays m_pins;
+  bool m_isGuarded = false;
   std::vector<btScalar> m_weights;  // of each link: the sum of its ends' inverse masses when the mesh was taken
   std::vector<btScalar> m_stiffnessFactors;  // of each link, or none
   unsigned long long m_stiffnessRevision = 0;

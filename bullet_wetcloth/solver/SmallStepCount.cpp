@@ -27,8 +27,9 @@ int SmallStepCount::inSteadySteps(const ClothSolver::Parameters& parameters, dou
   return std::max(usualCount(parameters, dt), std::min(kLeast, parameters.smallSteps));
 }
 
-int SmallStepCount::of(const ClothSolver::Parameters& parameters, double dt) const {
-  const bool isLikeTheLast = m_step > 0 && std::fabs(dt - m_step) <= kSameLength * m_step;
+int SmallStepCount::of(const ClothSolver::Parameters& parameters, double dt, bool isCrumpled) const {
+  if (!hasStepped() && !isCrumpled) return inSteadySteps(parameters, dt);
+  const bool isLikeTheLast = hasStepped() && std::fabs(dt - m_step) <= kSameLength * m_step;
   if (!isLikeTheLast) return usualCount(parameters, dt);
   const double most = std::max(std::floor(2 * dt / m_length * (1 + kSameLength)), 1.0);
   return static_cast<int>(std::min<double>(inSteadySteps(parameters, dt), most));

@@ -12,14 +12,16 @@ class StateArchive;
 /// How many small steps the next step of a cloth has.
 ///
 /// All are about as long. One pass over the links leaves an error that becomes a velocity by the small step's length: a
-/// small step that is much shorter than the last one, or a first one, would kick the cloth. So only steps that are all
+/// small step that is much shorter than the last one would kick the cloth. So only steps that are all
 /// alike get more of them than their length asks for, at least 4; and then each is at least half as long as the last.
 class SmallStepCount {
  public:
   /// Where all steps are dt [s] long, after the first few.
   static int inSteadySteps(const ClothSolver::Parameters& parameters, double dt);
-  /// For a step of dt [s] now.
-  int of(const ClothSolver::Parameters& parameters, double dt) const;
+  /// For a step of dt [s] now. @param isCrumpled  links are far from their lengths: a first step is no steady one then
+  int of(const ClothSolver::Parameters& parameters, double dt, bool isCrumpled) const;
+  /// Whether there was a step.
+  bool hasStepped() const { return m_step > 0; }
   /// A step of dt [s] had so many.
   void had(double dt, int count);
   /// Names what goes on from step to step: see StateArchive.

@@ -53,6 +53,7 @@ RunReport::RunReport(const SceneWorld& world, const RunTimes& times, const DripR
 
 void RunReport::askSolver(const SceneWorld& world) {
   if (world.clothSolver() == nullptr) return;
+  m_guard = world.clothSolver()->guardTotals();
   for (std::size_t i = 0; i < world.bodies().size(); ++i) {
     const std::string reason = world.clothSolver()->reasonNotTaken(*world.bodies()[i]);
     if (!reason.empty()) m_solverReasons.emplace_back("/cloths/" + std::to_string(i), reason);
@@ -127,6 +128,12 @@ nlohmann::ordered_json RunReport::json() const {
                      {"per_second", m_audit->perSecond()},
                      {"incomplete_substeps", m_audit->incompleteSubsteps}};
   }
+  if (hasGuard()) {
+    json["guard"] = {{"passages", m_guard.forced},
+                     {"stopped", m_guard.stopped},
+                     {"halts", m_guard.halts},
+                     {"meeting", m_guard.meeting}};
+  }
   json["centre_of_mass"] = {m_moment[0] / m_mass, m_moment[1] / m_mass, m_moment[2] / m_mass};
   json["max_speed"] = m_maxSpeed;
   if (!m_springs.empty()) json["springs_n_m"] = m_springs;
@@ -165,6 +172,11 @@ std::string RunReport::solverLine() const {
   if (!m_scene.clothSolver) return "";
   std::string line =
       "solver         wetcloth, " + std::to_string(m_scene.clothSolver->smallSteps) + " small steps in 1/60 s\n";
+  if (hasGuard()) {
+    line += "guard          " + std::to_string(m_guard.forced) + " pairs forced through each other, " +
+            std::to_string(m_guard.stopped) + " nodes slowed, " + std::to_string(m_guard.halts) +
+            " small steps in which all stood still\n";
+  }
   for (const auto& [cloth, reason] : m_solverReasons) {
     line += "               Bullet's own steps " + cloth + ": " + reason + "\n";
   }

@@ -37,6 +37,7 @@ class RunReport {
   void measureBody(const btSoftBody& body);
   void measureCloth(const wetcloth::WetCloth& cloth);
   void askSolver(const SceneWorld& world);
+  bool hasGuard() const { return m_scene.clothSolver && m_scene.clothSolver->guard; }
   std::string waterLines() const;
   std::string auditLine() const;
   std::string steppingLine() const;
@@ -58,6 +59,7 @@ class RunReport {
   double m_mass = 0;
   double m_maxSpeed = 0;
   double m_maxStretch = 0;
+  wetcloth::ClothSolver::GuardTotals m_guard;
   /// Why ClothSolver did not take a cloth, by its pointer in the scene.
   std::vector<std::pair<std::string, std::string>> m_solverReasons;
   std::vector<double> m_springs;  // stiffness of Bullet's own, where cloths have them [N/m]

@@ -20,7 +20,8 @@ inline const KeyTable scene{
     {"$schema", "name", "description", "world", "precision", "gravity_m_s2", "step_s", "substeps", "iterations",
      "duration_s", "implicit", "solver", "quality", "cloths", "colliders", "water", "camera"}};
 
-inline const KeyTable solver{"solver", {"small_steps", "stiffness_n_m"}};
+inline const KeyTable solver{"solver", {"small_steps", "stiffness_n_m", "guard"}};
+inline const KeyTable guard{"guard", {"thickness_m", "self", "others", "every", "friction"}};
 
 inline const KeyTable cloth{"cloth",
                             {"name", "patch", "obj", "fabric", "pins", "initial_saturation", "water_pace", "friction",
@@ -62,9 +63,9 @@ inline const KeyTable sphere{"sphere", {"centre_m", "radius_m"}};
 inline const KeyTable camera{"camera", {"direction", "field_of_view_deg"}};
 
 /// But for those of effects, which stand in the catalogue.
-inline const std::vector<const KeyTable*> all{&scene,  &solver,   &waterPace,     &obj,  &cloth,  &patch,
-                                              &fabric, &pins,     &exposureBelow, &gust, &twist,  &motion,
-                                              &water,  &collider, &plane,         &box,  &sphere, &camera};
+inline const std::vector<const KeyTable*> all{&scene,    &solver, &guard,         &waterPace, &obj,   &cloth,  &patch,
+                                              &fabric,   &pins,   &exposureBelow, &gust,      &twist, &motion, &water,
+                                              &collider, &plane,  &box,           &sphere,    &camera};
 
 }  // namespace keys
 }  // namespace command

@@ -367,6 +367,17 @@ CameraScene readCamera(JsonCursor cursor) {
   return camera;
 }
 
+wetcloth::ClothSolver::Guard readGuard(JsonCursor cursor) {
+  wetcloth::ClothSolver::Guard settings;
+  cursor.expectObject(keys::guard);
+  readNumber(cursor, "thickness_m", Range::notNegative(), settings.thickness);
+  if (const auto self = cursor.find("self")) settings.self = self->boolean();
+  if (const auto others = cursor.find("others")) settings.others = others->boolean();
+  if (const auto every = cursor.find("every")) settings.every = every->integer(1, 100);
+  readNumber(cursor, "friction", Range::notNegative(), settings.friction);
+  return settings;
+}
+
 /// None: Bullet's own.
 std::optional<wetcloth::ClothSolver::Parameters> readSolver(JsonCursor cursor) {
   wetcloth::ClothSolver::Parameters parameters;
@@ -378,6 +389,7 @@ std::optional<wetcloth::ClothSolver::Parameters> readSolver(JsonCursor cursor) {
   cursor.expectObject(keys::solver);
   if (const auto count = cursor.find("small_steps")) parameters.smallSteps = count->integer(1, 1000);
   readNumber(cursor, "stiffness_n_m", Range::positive(), parameters.stiffness);
+  if (const auto settings = cursor.find("guard")) parameters.guard = readGuard(*settings);
   return parameters;
 }
 

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/bullet/PackedNodes.h"
+#include "bullet_wetcloth/solver/ClothSolver.h"
+#include "bullet_wetcloth/solver/GuardMesh.h"
+#include "bullet_wetcloth/solver/GuardPairs.h"
+#include "bullet_wetcloth/solver/GuardTiles.h"
+#include "bullet_wetcloth/solver/SmallStep.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Keeps cloths from passing through themselves and through each other, small step by small step: see docs/guard.md.
+///
+/// It knows that nothing has met at the end of the small step before, and where the nodes want to go. For some small
+/// steps ahead it expects each node on its way, within a distance of it; what cannot meet as long as that holds is not
+/// looked at again. What is left are pairs, each with a plane between its two parts. After a small step both parts of
+/// each pair are on their sides of its plane, and every node is where it was expected; so nothing has met.
+class ClothGuard {
+ public:
+  /// A cloth in this step.
+  struct Cloth {
+    const GuardMesh* mesh;  ///< which lives as long as the cloth is guarded
+    MovingNodes nodes;
+    const int* slots;  ///< of its nodes
+    int nodeCount;
+    btVector3 origin;  ///< of its places, whole numbers [m]
+  };
+
+  /// Before the first small step of a step: nodes stand where they were at its end, and pins where they come from.
+  void begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters);
+  /// After each small step.
+  void hold();
+
+  const ClothSolver::GuardTotals& totals() const { return m_totals; }
+  void resetTotals() { m_totals = {}; }
+
+ private:
+  void keep();
+  bool isWhereExpected() const;
+  void lookAlongPresentWays();
+  void lookAlongLastWays();
+  void look();
+  void enforce();
+  void gather();
+  void scatter();
+  void stopAll();
+
+  std::vector<Cloth> m_cloths;
+  std::vector<std::size_t> m_first;  // of each cloth's nodes among all
+  ClothSolver::Guard m_parameters;
+  ClothSolver::GuardTotals m_totals;
+  GuardTiles m_tiles;
+  GuardPairs m_pairs;
+  GuardPairs::Contact m_contact = {};
+  GuardNodes m_nodes;
+  GuardCandidates m_candidates;
+  // Of each cloth, by slot: where nodes were at the end of the last small step and of the one before, and where they
+  // were at the last look, and how far in a small step it expects them to go.
+  struct Kept {
+    PackedNodes::Lane before[3];
+    PackedNodes::Lane last[3];
+    PackedNodes::Lane from[3];
+    PackedNodes::Lane way[3];
+
+    void setWay(std::size_t axis, const btScalar* to, const btScalar* start);
+  };
+  std::vector<Kept> m_kept;
+  int m_age = 0;    // small steps since the last look, that one included
+  int m_ahead = 1;  // for how many it was
+  bool m_isFirst = true;
+  btScalar m_slack = 0;     // how far nodes may be from their way, on each axis [m]
+  btScalar m_edge = 0;      // the mean edge [m]
+  btScalar m_rounding = 0;  // of a place [m]
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Zlib
+#include "bullet_wetcloth/solver/GuardMesh.h"
+
+#include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/mesh/RestMesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+constexpr int kMostFacesInTile = 64;
+
+GuardMesh::Face nodesOf(const btSoftBody& body, int face) {
+  const btSoftBody::Face& f = body.m_faces[face];
+  return {{nodeIndex(body, f.m_n[0]), nodeIndex(body, f.m_n[1]), nodeIndex(body, f.m_n[2])}};
+}
+
+// Of a face: the row and column from which it reaches one row and one column further; -1: it reaches further.
+struct GridCorner {
+  int row;
+  int column;
+};
+
+GridCorner gridCornerOf(const GuardMesh::Face& face, int columns) {
+  GridCorner low = {face.node[0] / columns, face.node[0] % columns};
+  GridCorner high = low;
+  for (const int node : face.node) {
+    low = {std::min(low.row, node / columns), std::min(low.column, node % columns)};
+    high = {std::max(high.row, node / columns), std::max(high.column, node % columns)};
+  }
+  return high.row == low.row + 1 && high.column == low.column + 1 ? low : GridCorner{-1, -1};
+}
+
+// For each face, by its corner; empty when a face does not stand between two rows and columns.
+std::vector<std::vector<int>> facesOfCorners(const btSoftBody& body, int columns) {
+  std::vector<std::vector<int>> faces(toSize(body.m_nodes.size()));
+  for (int k = 0; k < body.m_faces.size(); ++k) {
+    const GridCorner corner = gridCornerOf(nodesOf(body, k), columns);
+    if (corner.row < 0) return {};
+    faces[toSize(corner.row * columns + corner.column)].push_back(k);
+  }
+  return faces;
+}
+
+// Puts parts into cells, one cell after the other.
+class CellWriter {
+ public:
+  CellWriter(const btSoftBody& body, int columns, GuardMesh& mesh)
+      : m_body(body),
+        m_rest(body),
+        m_mesh(mesh),
+        m_hasVertex(toSize(body.m_nodes.size())),
+        m_hasEdge(m_rest.edges().size()),
+        m_isCorner(m_hasVertex.size()),
+        m_edgesOfNode(m_hasVertex.size()) {
+    double sum = 0;
+    for (const RestMesh::Edge& edge : m_rest.edges()) sum += edge.length;
+    mesh.edgeLength = m_rest.edges().empty() ? 0 : sum / static_cast<double>(m_rest.edges().size());
+    for (const RestMesh::Triangle& triangle : m_rest.triangles()) {
+      for (const int node : triangle.nodes) m_isCorner[toSize(node)] = true;
+    }
+    for (std::size_t k = 0; k < m_rest.edges().size(); ++k) {
+      const RestMesh::Edge& edge = m_rest.edges()[k];
+      const int home = columns > 0 ? edge.a / columns * columns + std::min(edge.a % columns, edge.b % columns) : edge.a;
+      m_edgesOfNode[toSize(home)].push_back(static_cast<int>(k));
+    }
+  }
+
+  void beginCell(int row, int column) {
+    m_mesh.cells.push_back({static_cast<int>(m_mesh.vertices.size()), static_cast<int>(m_mesh.edges.size()),
+                            static_cast<int>(m_mesh.faces.size()), row, column});
+  }
+  void addVertex(int node) {
+    if (m_hasVertex[toSize(node)] || !m_isCorner[toSize(node)]) return;
+    m_hasVertex[toSize(node)] = true;
+    m_mesh.vertices.push_back(node);
+  }
+  void addEdge(int index) {
+    const RestMesh::Edge& edge = m_rest.edges()[toSize(index)];
+    if (m_hasEdge[toSize(index)] || edge.a == edge.b) return;
+    m_hasEdge[toSize(index)] = true;
+    m_mesh.edges.push_back({{edge.a, edge.b}});
+  }
+  void addFace(int face) {
+    const GuardMesh::Face nodes = nodesOf(m_body, face);
+    const bool isTriangle =
+        nodes.node[0] != nodes.node[1] && nodes.node[1] != nodes.node[2] && nodes.node[2] != nodes.node[0];
+    if (isTriangle && !m_rest.triangles()[toSize(face)].isDoubled) m_mesh.faces.push_back(nodes);
+  }
+  void addFaceWithParts(int face) {
+    for (const int node : m_rest.triangles()[toSize(face)].nodes) addVertex(node);
+    for (const int edge : m_rest.triangles()[toSize(face)].edges) {
+      if (edge >= 0) addEdge(edge);
+    }
+    addFace(face);
+  }
+  // Of a grid: those between this node's row and column and the next ones.
+  void addEdgesFrom(int node) {
+    for (const int edge : m_edgesOfNode[toSize(node)]) addEdge(edge);
+  }
+
+ private:
+  const btSoftBody& m_body;
+  RestMesh m_rest;
+  GuardMesh& m_mesh;
+  std::vector<bool> m_hasVertex;
+  std::vector<bool> m_hasEdge;
+  std::vector<bool> m_isCorner;
+  std::vector<std::vector<int>> m_edgesOfNode;
+};
+
+void fillGrid(const std::vector<std::vector<int>>& facesOfCorner, CellWriter& writer, GuardMesh& mesh) {
+  constexpr int kSide = GuardMesh::kSide;
+  mesh.tileColumns = (mesh.columns + kSide - 1) / kSide;
+  mesh.tileRows = (mesh.rows + kSide - 1) / kSide;
+  for (int tile = 0; tile < mesh.tileRows * mesh.tileColumns; ++tile) {
+    const int firstRow = tile / mesh.tileColumns * kSide;
+    const int firstColumn = tile % mesh.tileColumns * kSide;
+    GuardMesh::Tile entry = {static_cast<int>(mesh.cells.size()), 0, true};
+    for (int row = firstRow; row < std::min(firstRow + kSide, mesh.rows); ++row) {
+      for (int column = firstColumn; column < std::min(firstColumn + kSide, mesh.columns); ++column) {
+        const int node = row * mesh.columns + column;
+        writer.beginCell(row, column);
+        writer.addVertex(node);
+        writer.addEdgesFrom(node);
+        for (const int face : facesOfCorner[toSize(node)]) writer.addFace(face);
+        const bool isInside = row + 1 < mesh.rows && column + 1 < mesh.columns;
+        if (isInside && facesOfCorner[toSize(node)].size() != 2) entry.isWhole = false;
+      }
+    }
+    entry.endCell = static_cast<int>(mesh.cells.size());
+    mesh.tiles.push_back(entry);
+  }
+}
+
+// Halves the faces at the median of their centres along the longest side, until few are left.
+void fillTiles(const btSoftBody& body, int* first, int* last, CellWriter& writer, GuardMesh& mesh) {
+  if (last - first <= kMostFacesInTile) {
+    GuardMesh::Tile tile = {static_cast<int>(mesh.cells.size()), 0, false};
+    for (const int* face = first; face != last; ++face) {
+      writer.beginCell(0, 0);
+      writer.addFaceWithParts(*face);
+    }
+    tile.endCell = static_cast<int>(mesh.cells.size());
+    mesh.tiles.push_back(tile);
+    return;
+  }
+  const auto centre = [&](int face) {
+    const btSoftBody::Face& f = body.m_faces[face];
+    return f.m_n[0]->m_x + f.m_n[1]->m_x + f.m_n[2]->m_x;
+  };
+  btVector3 least = centre(*first);
+  btVector3 largest = least;
+  for (const int* face = first; face != last; ++face) {
+    least.setMin(centre(*face));
+    largest.setMax(centre(*face));
+  }
+  const int axis = (largest - least).maxAxis();
+  int* const middle = first + (last - first) / 2;
+  std::nth_element(first, middle, last, [&](int a, int b) {
+    const btScalar atA = centre(a)[axis];
+    const btScalar atB = centre(b)[axis];
+    return atA != atB ? atA < atB : a < b;
+  });
+  fillTiles(body, first, middle, writer, mesh);
+  fillTiles(body, middle, last, writer, mesh);
+}
+
+}  // namespace
+
+GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Grid>& grid) {
+  GuardMesh mesh;
+  const bool isFull = grid && grid->columns * grid->rows == body.m_nodes.size();
+  const auto facesOfCorner = isFull ? facesOfCorners(body, grid->columns) : std::vector<std::vector<int>>();
+  CellWriter writer(body, facesOfCorner.empty() ? 0 : grid->columns, mesh);
+  if (!facesOfCorner.empty()) {
+    mesh.columns = grid->columns;
+    mesh.rows = grid->rows;
+    fillGrid(facesOfCorner, writer, mesh);
+  } else if (body.m_faces.size() > 0) {
+    std::vector<int> order(toSize(body.m_faces.size()));
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
+    fillTiles(body, order.data(), order.data() + order.size(), writer, mesh);
+  }
+  writer.beginCell(0, 0);
+  return mesh;
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

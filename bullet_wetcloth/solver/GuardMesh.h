@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/solver/NodeSlots.h"
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <optional>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// What of a cloth must not pass what: the vertices, edges and faces of its triangles. They stand in cells of a few and
+/// tiles of some cells; each belongs to one cell, so that each pair is met once.
+///
+/// Of a grid a cell is that of a node: it has the node, the edges to the next ones and the two triangles between them.
+/// Of another mesh it is a triangle with what no triangle before it has.
+struct GuardMesh {
+  struct Edge {
+    int node[2];
+  };
+  struct Face {
+    int node[3];
+  };
+  /// The first part of each kind; the next cell's are the ends.
+  struct Cell {
+    int vertex;
+    int edge;
+    int face;
+    int row;     ///< of a grid
+    int column;  ///< of a grid
+  };
+  struct Tile {
+    int cell;      ///< the first one
+    int endCell;   ///< after the last one
+    bool isWhole;  ///< of a grid: has two triangles between all its rows and columns
+  };
+  /// Rows and columns of nodes in a tile of a grid.
+  static constexpr int kSide = 8;
+
+  std::vector<int> vertices;  ///< nodes
+  std::vector<Edge> edges;
+  std::vector<Face> faces;
+  std::vector<Cell> cells;  ///< and one more after the last
+  std::vector<Tile> tiles;  ///< of a grid: row by row
+  int columns = 0;          ///< of nodes in a grid; 0: it is none
+  int rows = 0;
+  int tileColumns = 0;
+  int tileRows = 0;
+  double edgeLength = 0;  ///< mean at rest [m]
+
+  bool isGrid() const { return columns > 0; }
+};
+
+/// Of this body; its slots tell whether it is a grid.
+GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Grid>& grid);
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/solver/GuardGroups.h"
+#include "bullet_wetcloth/solver/GuardNodes.h"
+#include "bullet_wetcloth/solver/GuardPlanes.h"
+#include "bullet_wetcloth/solver/GuardTiles.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Pairs of parts that may meet, each with a plane between them, and what keeps the parts on their sides of it.
+class GuardPairs {
+ public:
+  /// How parts act on each other.
+  struct Contact {
+    btScalar thickness;  ///< nearer than that they do not approach, and slowly part [m]
+    btScalar friction;   ///< coefficient
+    btScalar leastGap;   ///< more than rounding does to a gap [m]
+  };
+  /// What a small step came to.
+  struct Outcome {
+    long long stopped = 0;  ///< nodes that went with the mean of those around them, wholly or in part
+    long long forced = 0;   ///< pairs that imposed nodes leave no room
+  };
+
+  /// Puts planes between the parts of these pairs, where they were at the end of the small step before. Drops those
+  /// that cannot meet, nor come within the thickness, while every node keeps to where it is expected. Returns how many
+  /// meet already: between them is no plane, and they may pass.
+  long long look(const GuardNodes& nodes, const GuardCandidates& pairs, const GuardTiles::Expectation& expectation,
+                 const Contact& contact);
+  void clear();
+  bool isEmpty() const { return size() == 0; }
+  std::size_t size() const { return m_vertexFace.size() + m_edgeEdge.size(); }
+
+  /// Moves the nodes' places at the end of a small step so that no part leaves its side.
+  Outcome enforce(GuardNodes& nodes, const Contact& contact);
+  /// Whether all parts are on their sides. If they are, the small step is over for the planes.
+  bool settle(const GuardNodes& nodes);
+  /// Gives up planes that imposed nodes leave no room, and returns how many.
+  long long release(const GuardNodes& nodes);
+
+ private:
+  template <int first>
+  long long look(const GuardNodes& nodes, const std::vector<GuardPair>& pairs, int steps, btScalar near,
+                 GuardPlanes& planes);
+  template <int first>
+  bool addPlane(const GuardNodes& nodes, const GuardPair& pair, int steps, btScalar near, GuardPlanes& planes) const;
+  btScalar leastGapOf(btScalar gapBefore) const;
+  bool isViolated(const GuardPlanes& planes, std::size_t plane, btScalar gap) const;
+  bool holds(const GuardPlanes& planes, const GuardNodes& nodes);
+  void part(const GuardPlanes& planes, GuardNodes& nodes) const;
+  bool pass(const GuardPlanes& planes, GuardNodes& nodes) const;
+  void keepApart(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const;
+  void keepSides(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const;
+  long long slow(GuardNodes& nodes, bool isLast);
+
+  GuardPlanes m_vertexFace{1};
+  GuardPlanes m_edgeEdge{2};
+  std::vector<GuardPlanes::Measure> m_measures[2];  // of the last look at all planes, by kind
+  Contact m_contact = {};
+  GuardGroups m_groups;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
