@@ -55,8 +55,8 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   /// What can be set, with units and ranges.
   struct Parameters {
     /// In 1/60 s, [1, 1000]; a shorter step of Bullet's has fewer, a longer one more, up to 1000, so that they are
-    /// about as long. Steps that are all alike have at least 4. Twice as many cost less than twice the time, and
-    /// stretch a quarter.
+    /// about as long. Steps that are all alike have 4 in place of 1 or 2. Twice as many cost less than twice the time,
+    /// and stretch a quarter.
     int smallSteps = 10;
     /// Of a link whose material has m_kLST = 1 [N/m], > 0; in proportion to it otherwise. Infinite: links do not
     /// stretch, and those with m_kLST < 1 are as soft as Bullet's own passes leave them, for the masses that the body

@@ -23,8 +23,11 @@ int usualCount(const ClothSolver::Parameters& parameters, double dt) {
 }  // namespace
 
 int SmallStepCount::inSteadySteps(const ClothSolver::Parameters& parameters, double dt) {
-  constexpr int kLeast = 4;  // light cloths, and cloths under weights, need some passes in a short step, too
-  return std::max(usualCount(parameters, dt), std::min(kLeast, parameters.smallSteps));
+  constexpr int kEnough = 3;
+  constexpr int kInstead =
+      4;  // of one or two: light cloths, and cloths under weights, need some passes in a short step
+  const int count = usualCount(parameters, dt);
+  return count >= kEnough ? count : std::max(count, std::min(kInstead, parameters.smallSteps));
 }
 
 int SmallStepCount::of(const ClothSolver::Parameters& parameters, double dt, bool isCrumpled) const {

@@ -13,7 +13,8 @@ class StateArchive;
 ///
 /// All are about as long. One pass over the links leaves an error that becomes a velocity by the small step's length: a
 /// small step that is much shorter than the last one would kick the cloth. So only steps that are all
-/// alike get more of them than their length asks for, at least 4; and then each is at least half as long as the last.
+/// alike get more of them than their length asks for, 4 where that is 1 or 2; and then each is at least half as long as
+/// the last.
 class SmallStepCount {
  public:
   /// Where all steps are dt [s] long, after the first few.

@@ -106,8 +106,7 @@ TEST(SmallSteps, OfSeveralClothsAreToldApart) {
     EXPECT_EQ(record.places.size(), record.cloth == 1 ? 60u : 36u);
     EXPECT_NEAR(record.places[1], record.cloth == 1 ? 1 : 9, 0.1);
   }
-  // The first substep has a quarter of twelve small steps; the others, all alike, have the least number of four.
-  const std::size_t expected = 3 + (6 * 4 - 1) * 4;
+  const std::size_t expected = 6 * 4 * 3;  // a substep has a quarter of twelve
   EXPECT_EQ(counts, (std::vector<std::size_t>{0, expected, expected}));
 }
 
