@@ -16,7 +16,7 @@ namespace {
 constexpr double kThicknessOfEdge = 0.5;  // of the mean edge, at most: neighbours are not to push each other
 // How far nodes may leave the way that is expected of them: by a share of it, within shares of the mean edge.
 constexpr btScalar kSlackOfWay = btScalar(0.1);
-constexpr btScalar kLeastSlackOfEdge = btScalar(0.004);
+constexpr btScalar kLeastSlackOfEdge = btScalar(0.01);
 constexpr btScalar kMostSlackOfEdge = btScalar(0.05);
 constexpr btScalar kRoundingsOfSlack = 40;
 constexpr btScalar kUsedSlack = btScalar(0.9);  // the rest is for rounding
@@ -44,6 +44,21 @@ struct OnTheWay {
     btScalar parts[kLaneCount<Lanes>];
     store(parts, farthest);
     for (const btScalar part : parts) isOnIt = isOnIt && part <= slack;
+  }
+};
+
+// What leads from one place to the next, along one axis.
+struct Difference {
+  const btScalar* to;
+  const btScalar* from;
+  btScalar* way;
+  std::size_t count;
+
+  template <class Lanes>
+  WETCLOTH_INLINE void run() const {
+    for (std::size_t i = 0; i < count; i += kLaneCount<Lanes>) {
+      store(way + i, load<Lanes>(to + i) - load<Lanes>(from + i));
+    }
   }
 };
 
@@ -172,7 +187,7 @@ void ClothGuard::lookAlongLastWays() {
 void ClothGuard::Kept::setWay(std::size_t axis, const btScalar* to, const btScalar* start) {
   from[axis] = last[axis];
   way[axis].resize(last[axis].size());
-  for (std::size_t i = 0; i < way[axis].size(); ++i) way[axis][i] = to[i] - start[i];
+  runOnBestLanes(Difference{to, start, way[axis].data(), way[axis].size()});
 }
 
 void ClothGuard::look() {

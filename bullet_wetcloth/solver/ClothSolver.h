@@ -38,7 +38,7 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
     double thickness = 0.002;
     bool self = true;       ///< a cloth and itself
     bool others = true;     ///< the cloths that the solver has taken, among each other
-    int every = 5;          ///< for so many small steps ahead nodes are expected on their way, [1, 100]
+    int every = 10;         ///< for so many small steps ahead nodes are expected on their way, [1, 100]
     double friction = 0.3;  ///< between layers, coefficient, >= 0
   };
   /// What the guard has done since the start, or since resetGuardTotals().

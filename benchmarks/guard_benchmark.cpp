@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Zlib
+// ClothSolver with its guard against the same without. `ratio` is a step with it over a step without, medians of one
+// run in which both take turns; `looks` and `pairs` are the guard's in a step and at a look.
+
+#include "benchmarks/BenchCloth.h"
+#include "tests/support/RigidBody.h"
+
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <vector>
+
+namespace {
+
+using wetcloth_bench::median;
+using wetcloth_bench::secondsOf;
+using wetcloth_test::BulletWorld;
+using wetcloth_test::RigidBody;
+using wetcloth_test::WorldKind;
+
+// A world with cloths, guarded or not, and perhaps a floor at y = 0.
+class Scene {
+ public:
+  Scene(const std::vector<wetcloth::ClothPatch>& patches, bool isGuarded, bool hasFloor)
+      : m_solver(parametersOf(isGuarded)), m_bullet(WorldKind::softRigid, btVector3(0, btScalar(-9.81), 0), &m_solver) {
+    if (hasFloor) {
+      m_floor = std::make_unique<RigidBody>(m_bullet, std::make_unique<btBoxShape>(btVector3(3, 1, 3)), btScalar(0),
+                                            btVector3(0, -1, 0));
+    }
+    for (const wetcloth::ClothPatch& patch : patches) {
+      m_bodies.push_back(patch.build(m_bullet.info()));
+      m_bodies.back()->getCollisionShape()->setMargin(btScalar(0.01));
+      m_bodies.back()->m_cfg.kDF = btScalar(0.5);
+      m_bullet.add(*m_bodies.back());
+    }
+  }
+  ~Scene() {
+    for (const auto& body : m_bodies) m_bullet.remove(*body);
+  }
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  void step() { m_bullet.step(1, btScalar(1) / 60); }
+  wetcloth::ClothSolver& solver() { return m_solver; }
+
+ private:
+  static wetcloth::ClothSolver::Parameters parametersOf(bool isGuarded) {
+    wetcloth::ClothSolver::Parameters parameters;
+    if (isGuarded) parameters.guard.emplace();
+    return parameters;
+  }
+  wetcloth::ClothSolver m_solver;
+  BulletWorld m_bullet;
+  std::unique_ptr<RigidBody> m_floor;
+  std::vector<std::unique_ptr<btSoftBody>> m_bodies;
+};
+
+void compare(benchmark::State& state, const std::vector<wetcloth::ClothPatch>& patches, bool hasFloor, int warmUp) {
+  Scene plain(patches, false, hasFloor);
+  Scene guarded(patches, true, hasFloor);
+  for (int step = 0; step < warmUp; ++step) {
+    plain.step();
+    guarded.step();
+  }
+  guarded.solver().resetGuardTotals();
+  std::vector<double> times[2];
+  for (auto _ : state) {
+    static_cast<void>(_);
+    times[0].push_back(secondsOf([&] { plain.step(); }));
+    times[1].push_back(secondsOf([&] { guarded.step(); }));
+    state.SetIterationTime(times[1].back());
+  }
+  const wetcloth::ClothSolver::GuardTotals totals = guarded.solver().guardTotals();
+  state.counters["ratio"] = median(times[1]) / median(times[0]);
+  state.counters["ms"] = 1e3 * median(times[1]);
+  state.counters["looks"] = static_cast<double>(totals.looks) / static_cast<double>(times[1].size());
+  state.counters["pairs"] =
+      totals.looks > 0 ? static_cast<double>(totals.pairs) / static_cast<double>(totals.looks) : 0;
+  state.counters["halts"] = static_cast<double>(totals.halts);
+}
+
+wetcloth::ClothPatch upright(int side, double lean = 0) {
+  wetcloth::ClothPatch patch;
+  patch.columns = patch.rows = side;
+  patch.origin = btVector3(btScalar(-0.5), btScalar(0.05), 0);
+  patch.edgeV = btVector3(0, 1, btScalar(lean));
+  return patch;
+}
+
+int sideOf(const benchmark::State& state) { return static_cast<int>(state.range(0)); }
+
+void hanging(benchmark::State& state) {
+  wetcloth::ClothPatch patch = upright(sideOf(state));
+  patch.pinnedEdges = {wetcloth::ClothPatch::Edge::top};
+  compare(state, {patch}, false, 60);
+}
+
+void swinging(benchmark::State& state) {
+  wetcloth::ClothPatch patch = upright(sideOf(state));
+  patch.edgeV = btVector3(0, 0, -1);
+  patch.pinnedEdges = {wetcloth::ClothPatch::Edge::top};
+  compare(state, {patch}, false, 20);
+}
+
+void twoLayers(benchmark::State& state) {
+  wetcloth::ClothPatch lower = wetcloth_test::levelPatch(sideOf(state), 1);
+  wetcloth::ClothPatch upper = lower;
+  lower.origin.setY(btScalar(0.02));
+  upper.origin.setY(btScalar(0.03));
+  upper.origin.setX(upper.origin.x() + btScalar(0.01));
+  compare(state, {lower, upper}, true, 60);
+}
+
+void heap(benchmark::State& state) { compare(state, {upright(sideOf(state), 0.1)}, true, 120); }
+
+BENCHMARK(hanging)->Arg(64)->Arg(128)->Arg(256)->UseManualTime()->Iterations(120)->Unit(benchmark::kMillisecond);
+BENCHMARK(swinging)->Arg(64)->Arg(128)->Arg(256)->UseManualTime()->Iterations(120)->Unit(benchmark::kMillisecond);
+BENCHMARK(twoLayers)->Arg(64)->Arg(128)->UseManualTime()->Iterations(30)->Unit(benchmark::kMillisecond);
+BENCHMARK(heap)->Arg(64)->Arg(128)->UseManualTime()->Iterations(30)->Unit(benchmark::kMillisecond);
+
+}  // namespace
