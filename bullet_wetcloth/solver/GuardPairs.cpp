@@ -58,7 +58,7 @@ WETCLOTH_INLINE unsigned nearPairs(const GuardPair* pairs, const GuardNodes& nod
   way(now, first == 1 ? 1 : 0, first == 1 ? 2 : 1, u);
   way(now, first == 1 ? 1 : 2, 3, v);
   const Quad normal[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  const Quad zero = u[0] - u[0];
+  const Quad zero = everywhere<Quad>(0);
   // The least and the largest gap along the normal, over nodes of both parts and both times.
   Quad low = everywhere<Quad>(std::numeric_limits<btScalar>::max());
   Quad high = -low;

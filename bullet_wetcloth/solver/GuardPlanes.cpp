@@ -59,8 +59,8 @@ GuardPlanes::Measure GuardPlanes::measure(std::size_t begin, const std::vector<G
   const Quad x = load<Quad>(&m_normal[0][begin]);
   const Quad y = load<Quad>(&m_normal[1][begin]);
   const Quad z = load<Quad>(&m_normal[2][begin]);
-  Quad along[4] = {x - x};
-  Quad apart = x - x;
+  Quad along[4] = {everywhere<Quad>(0)};
+  Quad apart = everywhere<Quad>(0);
   for (std::size_t node = 1; node < 4; ++node) {  // from the first: the weights' sum is 0
     along[node] = (places[node][0] - places[0][0]) * x + (places[node][1] - places[0][1]) * y +
                   (places[node][2] - places[0][2]) * z;
@@ -83,8 +83,9 @@ GuardPlanes::Nearest GuardPlanes::nearest(std::size_t plane, const std::vector<G
                   (place.at[1] - origin.at[1]) * m_normal[1][plane] + (place.at[2] - origin.at[2]) * m_normal[2][plane];
     apart += along[node] * m_weight[node][plane];
   }
-  const int low = static_cast<int>(std::min_element(along, along + m_first) - along);
-  const int high = static_cast<int>(std::max_element(along + m_first, along + 4) - along);
+  const int low = m_first == 2 && along[1] < along[0] ? 1 : 0;
+  int high = 3;
+  for (int node = m_first; node < 3; ++node) high = along[node] > along[high] ? node : high;
   return {along[low] - along[high], apart, low, high};
 }
 

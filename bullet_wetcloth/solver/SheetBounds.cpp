@@ -47,10 +47,10 @@ bool SheetBounds::areOfASheetThatCannotMeetItself() const {
   for (int k = 0; k < 3; ++k) e1[k] = a.at[k] / lengthOfA;
   const double skew = b.along(e1) / lengthOfB;
   for (int k = 0; k < 3; ++k) e2[k] = b.at[k] / lengthOfB - skew * e1[k];
-  for (int k = 0; k < 3; ++k) length2 += e2[k] * e2[k];
+  for (const double x : e2) length2 += x * x;
   length2 = std::sqrt(length2);
   if (!(length2 > kLeast)) return false;
-  for (int k = 0; k < 3; ++k) e2[k] /= length2;
+  for (double& x : e2) x /= length2;
   // Half of the skew to either side.
   const double turn = skew / (1 + length2);  // the tangent of half the angle, since skew^2 + length2^2 = 1
   double f1[3], f2[3];
