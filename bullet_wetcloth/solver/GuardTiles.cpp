@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <tuple>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
@@ -14,6 +15,11 @@ namespace {
 // Rows and columns between two tiles or cells beyond which a flat rectangle around both is not tried.
 constexpr int kTilesApart = 2;
 constexpr int kCellsApart = 3;
+
+constexpr int kQuarter = GuardMesh::kSide / 2;
+
+int quarterRows(const GuardMesh& mesh) { return (mesh.rows + kQuarter - 1) / kQuarter; }
+int quarterColumns(const GuardMesh& mesh) { return (mesh.columns + kQuarter - 1) / kQuarter; }
 
 int tileAt(const GuardMesh& mesh, int row, int column) {
   return row / GuardMesh::kSide * mesh.tileColumns + column / GuardMesh::kSide;
@@ -51,7 +57,9 @@ void GuardTiles::add(const GuardMesh& mesh, std::size_t firstNode) {
   const std::size_t cells = isFirst ? 0 : m_cloths.back().firstCell + m_cloths.back().mesh->cells.size();
   const std::size_t edges = isFirst ? 0 : m_cloths.back().firstEdge + m_cloths.back().mesh->edges.size();
   const std::size_t faces = isFirst ? 0 : m_cloths.back().firstFace + m_cloths.back().mesh->faces.size();
-  m_cloths.push_back({&mesh, static_cast<int>(firstNode), m_tiles.size(), cells, edges, faces});
+  const std::size_t quarters = isFirst ? 0 : m_quarters.size();
+  m_cloths.push_back({&mesh, static_cast<int>(firstNode), m_tiles.size(), cells, edges, faces, quarters});
+  m_quarters.resize(quarters + toSize(quarterRows(mesh) * quarterColumns(mesh)));
   for (std::size_t k = 0; k < mesh.tiles.size(); ++k) m_tiles.push_back({m_cloths.size() - 1, static_cast<int>(k)});
   m_boxes.resize(m_tiles.size());
   m_vectors.resize(m_tiles.size());
@@ -197,6 +205,7 @@ void GuardTiles::findPairs(const GuardNodes& nodes, const Expectation& expectati
   m_expectation = expectation;
   m_pairs = &pairs;
   m_cellsAreBound.assign(m_tiles.size(), false);
+  for (Quarter& quarter : m_quarters) quarter.isBound = false;
   findEnds();
   for (std::size_t tile = 0; tile < m_tiles.size(); ++tile) boundTile(tile);
   m_isFlat.clear();
@@ -217,21 +226,85 @@ void GuardTiles::findPairs(const GuardNodes& nodes, const Expectation& expectati
 // --- cells and parts ------------------------------------------------------------------------------------------------
 
 void GuardTiles::lookAtTiles(std::size_t a, std::size_t b) {
-  boundCells(a);
-  boundCells(b);
   const Cloth& clothA = m_cloths[m_tiles[a].cloth];
   const Cloth& clothB = m_cloths[m_tiles[b].cloth];
+  if (&clothA == &clothB && clothA.mesh->isGrid()) return lookAtQuarters(clothA, m_tiles[a].index, m_tiles[b].index);
+  boundCells(a);
+  boundCells(b);
   const GuardMesh::Tile& partsA = clothA.mesh->tiles[toSize(m_tiles[a].index)];
   const GuardMesh::Tile& partsB = clothB.mesh->tiles[toSize(m_tiles[b].index)];
   for (int k = partsA.cell; k < partsA.endCell; ++k) {
-    const GuardBox& box = m_cellBoxes[clothA.firstCell + toSize(k)];
-    if (!box.overlaps(m_boxes[b])) continue;
-    for (int j = a == b ? k : partsB.cell; j < partsB.endCell; ++j) {
-      if (!box.overlaps(m_cellBoxes[clothB.firstCell + toSize(j)])) continue;
-      if (clothA.mesh == clothB.mesh && areCellsFlat(clothA, k, j)) continue;
-      lookAtCells(clothA, k, clothB, j);
+    if (!m_cellBoxes[clothA.firstCell + toSize(k)].overlaps(m_boxes[b])) continue;
+    for (int j = a == b ? k : partsB.cell; j < partsB.endCell; ++j) lookAtNearCells(clothA, k, clothB, j);
+  }
+}
+
+void GuardTiles::lookAtNearCells(const Cloth& a, int cellA, const Cloth& b, int cellB) {
+  if (!m_cellBoxes[a.firstCell + toSize(cellA)].overlaps(m_cellBoxes[b.firstCell + toSize(cellB)])) return;
+  if (&a == &b && areCellsFlat(a, cellA, cellB)) return;
+  lookAtCells(a, cellA, b, cellB);
+}
+
+const GuardTiles::Quarter& GuardTiles::quarter(const Cloth& cloth, int row, int column) {
+  const GuardMesh& mesh = *cloth.mesh;
+  Quarter& quarter = m_quarters[cloth.firstQuarter + toSize(row * quarterColumns(mesh) + column)];
+  if (quarter.isBound) return quarter;
+  const Rectangle nodes = {row * kQuarter, std::min((row + 1) * kQuarter, mesh.rows - 1), column * kQuarter,
+                           std::min((column + 1) * kQuarter, mesh.columns - 1)};
+  quarter = {boxOf(cloth, nodes), vectorsOf(cloth, nodes), true};
+  return quarter;
+}
+
+bool GuardTiles::areQuartersFlat(const Cloth& cloth, const Rectangle& around) {
+  if (around.lastRow - around.firstRow > kTilesApart || around.lastColumn - around.firstColumn > kTilesApart) {
+    return false;
+  }
+  SheetBounds bounds;
+  for (int row = around.firstRow; row <= around.lastRow; ++row) {
+    for (int column = around.firstColumn; column <= around.lastColumn; ++column) {
+      const int tile = tileAt(*cloth.mesh, row * kQuarter, column * kQuarter);
+      if (!cloth.mesh->tiles[toSize(tile)].isWhole) return false;
+      bounds.include(quarter(cloth, row, column).vectors);
     }
   }
+  return bounds.areOfASheetThatCannotMeetItself();
+}
+
+// Two tiles of a grid, or a tile and itself.
+void GuardTiles::lookAtQuarters(const Cloth& cloth, int tileA, int tileB) {
+  const GuardMesh& mesh = *cloth.mesh;
+  const auto forEachQuarter = [&](int tile, const auto& action) {
+    const int row = tile / mesh.tileColumns * 2;
+    const int column = tile % mesh.tileColumns * 2;
+    for (int i = row; i < std::min(row + 2, quarterRows(mesh)); ++i) {
+      for (int k = column; k < std::min(column + 2, quarterColumns(mesh)); ++k) action(i, k);
+    }
+  };
+  forEachQuarter(tileA, [&](int rowA, int columnA) {
+    forEachQuarter(tileB, [&](int rowB, int columnB) {
+      const bool isOne = rowA == rowB && columnA == columnB;
+      if (tileA == tileB && std::tie(rowB, columnB) < std::tie(rowA, columnA)) return;
+      if (!quarter(cloth, rowA, columnA).box.overlaps(quarter(cloth, rowB, columnB).box)) return;
+      if (areQuartersFlat(cloth, {std::min(rowA, rowB), std::max(rowA, rowB), std::min(columnA, columnB),
+                                  std::max(columnA, columnB)})) {
+        return;
+      }
+      boundCells(cloth.firstTile + toSize(tileA));
+      boundCells(cloth.firstTile + toSize(tileB));
+      const auto forEachCell = [&](int row, int column, const auto& action) {
+        for (int i = row * kQuarter; i < std::min((row + 1) * kQuarter, mesh.rows); ++i) {
+          for (int k = column * kQuarter; k < std::min((column + 1) * kQuarter, mesh.columns); ++k) {
+            action(cellAt(mesh, i, k));
+          }
+        }
+      };
+      forEachCell(rowA, columnA, [&](int cellA) {
+        forEachCell(rowB, columnB, [&](int cellB) {
+          if (!isOne || cellA <= cellB) lookAtNearCells(cloth, cellA, cloth, cellB);
+        });
+      });
+    });
+  });
 }
 
 bool GuardTiles::areCellsFlat(const Cloth& cloth, int cellA, int cellB) {

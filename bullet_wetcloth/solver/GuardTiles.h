@@ -47,6 +47,7 @@ class GuardTiles {
     std::size_t firstCell;
     std::size_t firstEdge;
     std::size_t firstFace;
+    std::size_t firstQuarter;
   };
   struct Tile {
     std::size_t cloth;
@@ -62,6 +63,17 @@ class GuardTiles {
   void include(int node, GuardBox& box) const;
   void includeVector(int from, int to, GuardBox& box) const;
   Rectangle nodesOfTile(const GuardMesh& mesh, int tile) const;
+  // Of half the side of a tile of a grid.
+  struct Quarter {
+    GuardBox box;
+    SheetBounds vectors;
+    bool isBound = false;
+  };
+
+  const Quarter& quarter(const Cloth& cloth, int row, int column);
+  void lookAtQuarters(const Cloth& cloth, int tileA, int tileB);
+  bool areQuartersFlat(const Cloth& cloth, const Rectangle& around);
+  void lookAtNearCells(const Cloth& a, int cellA, const Cloth& b, int cellB);
   GuardBox boxOf(const Cloth& cloth, const Rectangle& nodes) const;
   SheetBounds vectorsOf(const Cloth& cloth, const Rectangle& nodes) const;
   void boundTile(std::size_t tile);
@@ -86,6 +98,7 @@ class GuardTiles {
   std::vector<GuardBox> m_cellBoxes;
   std::vector<SheetBounds> m_cellVectors;
   std::vector<bool> m_cellsAreBound;  // of tiles
+  std::vector<Quarter> m_quarters;
   const GuardNodes* m_nodes = nullptr;
   Expectation m_expectation = {};
   GuardCandidates* m_pairs = nullptr;
