@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Zlib
+// With the guard no vertex meets a face, and no edge an edge, from small step to small step.
+#include "tests/solver/GuardScene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace wetcloth_test::cloth_guard_test {
+namespace {
+
+class ClothGuard : public testing::TestWithParam<WorldKind> {};
+INSTANTIATE_TEST_SUITE_P(, ClothGuard, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
+                         [](const auto& test) { return std::string(nameOf(test.param)); });
+
+void expectNothingImposed(const wetcloth::ClothSolver::GuardTotals& totals) {
+  EXPECT_EQ(totals.forced, 0);
+  EXPECT_EQ(totals.meeting, 0);
+  EXPECT_EQ(totals.halts, 0);
+}
+
+TEST_P(ClothGuard, ASheetFallsIntoAHeapAndRests) {
+  GuardScene scene(Guard(), GetParam());
+  btSoftBody& body = scene.add(sheetOnItsEdge(20));
+  scene.addFloor();
+  scene.watch();
+  scene.step(180);
+  EXPECT_EQ(scene.passages(), 0);
+  EXPECT_LT(rmsSpeed(body), 0.02);
+  EXPECT_GT(scene.totals().pairs, 0);
+  expectNothingImposed(scene.totals());
+}
+
+TEST(ClothGuardPromise, WithoutItTheSameSheetPassesThroughItself) {
+  GuardScene scene(std::nullopt);
+  scene.add(sheetOnItsEdge(20));
+  scene.addFloor();
+  scene.watch();
+  scene.step(60);
+  EXPECT_GT(scene.passages(), 100);
+  EXPECT_EQ(scene.totals().looks, 0);
+}
+
+void dropTwo(GuardScene& scene) {
+  scene.addFloor();
+  scene.add(levelSheet(14, 0.6, btVector3(0, btScalar(0.02), 0)));
+  scene.add(levelSheet(13, 0.6, btVector3(btScalar(0.01), btScalar(0.15), btScalar(0.02))));
+  scene.watch();
+  scene.step(90);
+}
+
+TEST_P(ClothGuard, TwoClothsLieOnEachOther) {
+  GuardScene scene(Guard(), GetParam());
+  dropTwo(scene);
+  EXPECT_EQ(scene.passages(), 0);
+  expectNothingImposed(scene.totals());
+}
+
+TEST(ClothGuardPromise, WithoutItTheUpperClothPassesThroughTheLowerOne) {
+  GuardScene scene(std::nullopt);
+  dropTwo(scene);
+  EXPECT_GT(scene.passages(), 100);
+}
+
+TEST(ClothGuardPromise, OnlyWhatIsAskedForIsHeldApart) {
+  Guard guard;
+  guard.others = false;
+  GuardScene scene(guard);
+  dropTwo(scene);
+  EXPECT_GT(scene.passages(), 100);
+}
+
+// One half of a sheet that stands upright flies into the other.
+void throwAtItself(GuardScene& scene, double speed, int steps) {
+  btSoftBody& body = scene.add(sailPatch(17));
+  for (int k = 0; k < body.m_nodes.size(); ++k) {
+    const double side = double(body.m_nodes[k].m_x.x()) - 0.5;
+    // A little aside, so that the layers do not only meet in the plane of the sheet.
+    const double aside = 0.3 * std::sin(7 * double(body.m_nodes[k].m_x.y()));
+    body.m_nodes[k].m_v = btVector3(btScalar(side > 0 ? -speed : speed), 0, btScalar(speed * aside));
+  }
+  scene.watch();
+  scene.step(steps);
+}
+
+TEST(ClothGuardPromise, ASheetThrownAtItself) {
+  GuardScene with(Guard(), WorldKind::softRigid, kNoGravity);
+  throwAtItself(with, 30, 30);
+  EXPECT_EQ(with.passages(), 0);
+  expectNothingImposed(with.totals());
+  GuardScene without(std::nullopt, WorldKind::softRigid, kNoGravity);
+  throwAtItself(without, 30, 30);
+  EXPECT_GT(without.passages(), 100);
+}
+
+// Two rods turn against each other, and come together as hands do. A wet sheet is 1.2 m x 1.6 m.
+struct Wringing {
+  static constexpr int kColumns = 25;
+  static constexpr int kRows = 33;
+  static constexpr double kTurns = 2;
+  static constexpr int kSteps = 240;
+
+  explicit Wringing(GuardScene& scene) {
+    wetcloth::ClothPatch patch;
+    patch.columns = kColumns;
+    patch.rows = kRows;
+    patch.origin = btVector3(btScalar(-0.6), 0, 0);
+    patch.edgeU = btVector3(btScalar(1.2), 0, 0);
+    patch.edgeV = btVector3(0, btScalar(1.6), 0);
+    patch.pinnedEdges = {wetcloth::ClothPatch::Edge::top, wetcloth::ClothPatch::Edge::bottom};
+    body = &scene.add(patch);
+  }
+  void turn(int step) const {
+    const double done = double(step) / kSteps;
+    const double angle = 2 * 3.14159265358979 * kTurns * done;
+    const double halfWidth = 0.6 * (1 - 0.75 * std::min(1.0, 3 * done));
+    const double height = 1.6 * (1 - 0.3 * done);
+    for (int i = 0; i < kColumns; ++i) {
+      const double x = halfWidth * (2.0 * i / (kColumns - 1) - 1);
+      body->m_nodes[i].m_x = btVector3(btScalar(x), 0, 0);
+      body->m_nodes[(kRows - 1) * kColumns + i].m_x =
+          btVector3(btScalar(x * std::cos(angle)), btScalar(height), btScalar(x * std::sin(angle)));
+    }
+  }
+  btSoftBody* body;
+};
+
+TEST(ClothGuardPromise, ASheetIsWrung) {
+  GuardScene scene;
+  const Wringing wringing(scene);
+  scene.watch();
+  double stretch = 0;
+  for (int step = 1; step <= Wringing::kSteps; ++step) {
+    wringing.turn(step);
+    scene.step(1);
+    stretch = std::max(stretch, largestStretch(*wringing.body));
+  }
+  EXPECT_EQ(scene.passages(), 0);
+  EXPECT_LE(stretch, 1.5);
+  expectNothingImposed(scene.totals());
+}
+
+// Two cloths in weightlessness that fly into each other: what one loses the other gains.
+TEST_P(ClothGuard, ClothsThatCollideKeepTheirMomentum) {
+  GuardScene scene(Guard(), GetParam(), kNoGravity);
+  btSoftBody& lower = scene.add(levelSheet(10, 0.5, btVector3(0, 0, 0)));
+  btSoftBody& upper = scene.add(levelSheet(11, 0.4, btVector3(btScalar(0.03), btScalar(0.1), btScalar(0.02))));
+  lower.m_cfg.kDP = 0;
+  upper.m_cfg.kDP = 0;
+  setVelocity(upper, btVector3(btScalar(0.5), -3, 0));
+  scene.watch();
+  const auto before = momentum(upper);
+  scene.step(30);
+  EXPECT_EQ(scene.passages(), 0);
+  EXPECT_LT(double(meanVelocity(lower).y()), -0.5) << "they have met";
+  const double mass = freeMass(lower) + freeMass(upper);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double after = momentum(lower)[axis] + momentum(upper)[axis];
+    EXPECT_NEAR(after / mass, before[axis] / mass, 1e-3) << "300 roundings of places, 1e-8 m in 1/600 s each";
+  }
+}
+
+struct Variant {
+  const char* name;
+  Guard guard;
+};
+class ClothGuardSettings : public testing::TestWithParam<Variant> {};
+INSTANTIATE_TEST_SUITE_P(, ClothGuardSettings,
+                         testing::Values(Variant{"thin", {0, true, true, 5, 0.3}},
+                                         Variant{"thickerThanAnEdge", {0.2, true, true, 5, 0.3}},
+                                         Variant{"looksInEachSmallStep", {0.002, true, true, 1, 0.3}},
+                                         Variant{"seldomLooks", {0.002, true, true, 100, 0.3}},
+                                         Variant{"smooth", {0.002, true, true, 5, 0}},
+                                         Variant{"rough", {0.002, true, true, 5, 100}}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST_P(ClothGuardSettings, KeepThePromise) {
+  GuardScene scene(GetParam().guard);
+  btSoftBody& body = scene.add(sheetOnItsEdge(14));
+  scene.addFloor();
+  scene.watch();
+  scene.step(75);
+  EXPECT_EQ(scene.passages(), 0);
+  EXPECT_TRUE(isFinite(body));
+  EXPECT_LT(largestSpeed(body), 10);
+  expectNothingImposed(scene.totals());
+}
+
+// A place in float32 is rounded to 0.2 mm there.
+TEST(ClothGuardPromise, FarFromTheOrigin) {
+  for (const bool isGuarded : {true, false}) {
+    GuardScene scene(isGuarded ? std::optional<Guard>(Guard()) : std::nullopt);
+    wetcloth::ClothPatch patch = sheetOnItsEdge(14);
+    patch.origin += btVector3(3000, 0, 0);
+    scene.add(patch);
+    wetcloth::ClothPatch other = levelSheet(8, 0.4, btVector3(3000, btScalar(1.2), btScalar(0.1)));
+    scene.add(other);
+    scene.addFloor(0, 3000);
+    scene.watch();
+    scene.step(75);
+    if (isGuarded) {
+      EXPECT_EQ(scene.passages(), 0);
+      expectNothingImposed(scene.totals());
+    } else {
+      EXPECT_GT(scene.passages(), 100);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wetcloth_test::cloth_guard_test
