@@ -21,7 +21,7 @@ void expectNothingImposed(const wetcloth::ClothSolver::GuardTotals& totals) {
 
 TEST_P(ClothGuard, ASheetFallsIntoAHeapAndRests) {
   GuardScene scene(Guard(), GetParam());
-  btSoftBody& body = scene.add(sheetOnItsEdge(20));
+  btSoftBody& body = scene.add(wavySheet(16));
   scene.addFloor();
   scene.watch();
   scene.step(180);
@@ -33,30 +33,31 @@ TEST_P(ClothGuard, ASheetFallsIntoAHeapAndRests) {
 
 TEST(ClothGuardPromise, WithoutItTheSameSheetPassesThroughItself) {
   GuardScene scene(std::nullopt);
-  scene.add(sheetOnItsEdge(20));
+  scene.add(wavySheet(16));
   scene.addFloor();
   scene.watch();
-  scene.step(60);
+  scene.step(90);
   EXPECT_GT(scene.passages(), 100);
   EXPECT_EQ(scene.totals().looks, 0);
 }
 
+// Two that stand side by side fall into one heap.
 void dropTwo(GuardScene& scene) {
   scene.addFloor();
-  scene.add(levelSheet(14, 0.6, btVector3(0, btScalar(0.02), 0)));
-  scene.add(levelSheet(13, 0.6, btVector3(btScalar(0.01), btScalar(0.15), btScalar(0.02))));
+  scene.add(wavySheet(11, 0.6));
+  scene.add(wavySheet(12, 0.6, btVector3(btScalar(0.03), btScalar(0.07), btScalar(0.04))));
   scene.watch();
-  scene.step(90);
+  scene.step(75);
 }
 
-TEST_P(ClothGuard, TwoClothsLieOnEachOther) {
+TEST_P(ClothGuard, TwoClothsFallIntoOneHeap) {
   GuardScene scene(Guard(), GetParam());
   dropTwo(scene);
   EXPECT_EQ(scene.passages(), 0);
   expectNothingImposed(scene.totals());
 }
 
-TEST(ClothGuardPromise, WithoutItTheUpperClothPassesThroughTheLowerOne) {
+TEST(ClothGuardPromise, WithoutItTheSameClothsPassThroughEachOther) {
   GuardScene scene(std::nullopt);
   dropTwo(scene);
   EXPECT_GT(scene.passages(), 100);
@@ -93,12 +94,12 @@ TEST(ClothGuardPromise, ASheetThrownAtItself) {
   EXPECT_GT(without.passages(), 100);
 }
 
-// Two rods turn against each other, and come together as hands do. A wet sheet is 1.2 m x 1.6 m.
+// Two rods turn against each other, and come together as hands do. The sheet is 1.2 m x 1.6 m.
 struct Wringing {
-  static constexpr int kColumns = 25;
-  static constexpr int kRows = 33;
+  static constexpr int kColumns = 17;
+  static constexpr int kRows = 23;
   static constexpr double kTurns = 2;
-  static constexpr int kSteps = 240;
+  static constexpr int kSteps = 120;
 
   explicit Wringing(GuardScene& scene) {
     wetcloth::ClothPatch patch;
@@ -125,8 +126,8 @@ struct Wringing {
   btSoftBody* body;
 };
 
-TEST(ClothGuardPromise, ASheetIsWrung) {
-  GuardScene scene;
+/// How far links are stretched at most.
+double wring(GuardScene& scene) {
   const Wringing wringing(scene);
   scene.watch();
   double stretch = 0;
@@ -135,9 +136,18 @@ TEST(ClothGuardPromise, ASheetIsWrung) {
     scene.step(1);
     stretch = std::max(stretch, largestStretch(*wringing.body));
   }
-  EXPECT_EQ(scene.passages(), 0);
-  EXPECT_LE(stretch, 1.5);
-  expectNothingImposed(scene.totals());
+  return stretch;
+}
+
+TEST(ClothGuardPromise, ASheetIsWrung) {
+  GuardScene with;
+  const double stretch = wring(with);
+  EXPECT_EQ(with.passages(), 0);
+  expectNothingImposed(with.totals());
+  GuardScene without(std::nullopt);
+  const double itsOwn = wring(without);
+  EXPECT_GT(without.passages(), 1000);
+  EXPECT_LE(stretch, 1.5 * itsOwn) << "links that the rods pull stretch anyway; layers in the way do not double that";
 }
 
 // Two cloths in weightlessness that fly into each other: what one loses the other gains.
@@ -176,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(, ClothGuardSettings,
 
 TEST_P(ClothGuardSettings, KeepThePromise) {
   GuardScene scene(GetParam().guard);
-  btSoftBody& body = scene.add(sheetOnItsEdge(14));
+  btSoftBody& body = scene.add(wavySheet(13));
   scene.addFloor();
   scene.watch();
   scene.step(75);
@@ -190,11 +200,8 @@ TEST_P(ClothGuardSettings, KeepThePromise) {
 TEST(ClothGuardPromise, FarFromTheOrigin) {
   for (const bool isGuarded : {true, false}) {
     GuardScene scene(isGuarded ? std::optional<Guard>(Guard()) : std::nullopt);
-    wetcloth::ClothPatch patch = sheetOnItsEdge(14);
-    patch.origin += btVector3(3000, 0, 0);
-    scene.add(patch);
-    wetcloth::ClothPatch other = levelSheet(8, 0.4, btVector3(3000, btScalar(1.2), btScalar(0.1)));
-    scene.add(other);
+    scene.add(wavySheet(11, 0.6, btVector3(3000, btScalar(0.05), 0)));
+    scene.add(wavySheet(10, 0.5, btVector3(3000, btScalar(0.1), btScalar(0.1))));
     scene.addFloor(0, 3000);
     scene.watch();
     scene.step(75);

@@ -13,6 +13,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace wetcloth_test {
@@ -85,12 +87,22 @@ inline double rmsSpeed(const btSoftBody& body) {
   return std::sqrt(sum / body.m_nodes.size());
 }
 
-/// Nearly upright, with its lower edge a little above the height 0, so that it falls into folds.
-inline wetcloth::ClothPatch sheetOnItsEdge(int n) {
-  wetcloth::ClothPatch patch = squarePatch(n);
-  patch.origin = btVector3(btScalar(-0.5), btScalar(0.05), 0);
-  patch.edgeV = btVector3(0, 1, btScalar(0.1));
-  return patch;
+/// A sheet of n x n nodes, upright in waves above this place, so that it falls into folds.
+inline BodyBuilder wavySheet(int n, double side = 1, const btVector3& place = btVector3(0, btScalar(0.05), 0)) {
+  return [=](btSoftBodyWorldInfo& info) {
+    wetcloth::ClothPatch patch = squarePatch(n);
+    patch.origin = place - btVector3(btScalar(side / 2), 0, 0);
+    patch.edgeU = btVector3(btScalar(side), 0, 0);
+    patch.edgeV = btVector3(0, btScalar(side), 0);
+    std::unique_ptr<btSoftBody> body = patch.build(info);
+    for (int k = 0; k < body->m_nodes.size(); ++k) {
+      btVector3& x = body->m_nodes[k].m_x;
+      const btVector3 along = (x - place) / btScalar(side);
+      x.setZ(x.z() + btScalar(0.03 * side * std::sin(15 * double(along.y()) + 2 * double(along.x()))));
+      body->m_nodes[k].m_q = x;
+    }
+    return body;
+  };
 }
 
 /// Level, its middle at this place.

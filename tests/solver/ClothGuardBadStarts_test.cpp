@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Zlib
+// What the guard cannot hold apart it tells, and goes on.
+#include "tests/solver/GuardScene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace wetcloth_test::cloth_guard_bad_starts_test {
+namespace {
+
+// A level sheet, and one upright through its middle.
+void addCrossedCloths(GuardScene& scene, btSoftBody*& level, btSoftBody*& upright) {
+  level = &scene.add(levelSheet(9, 0.5, btVector3(0, 0, 0)));
+  wetcloth::ClothPatch patch = squarePatch(10);
+  patch.origin = btVector3(btScalar(-0.23), btScalar(-0.23), btScalar(0.017));
+  patch.edgeU = btVector3(btScalar(0.5), 0, 0);
+  patch.edgeV = btVector3(0, btScalar(0.5), btScalar(0.01));
+  upright = &scene.add(patch);
+}
+
+TEST(ClothGuardBadStarts, ClothsThatAreEntangledAreToldAndFallOn) {
+  GuardScene scene;
+  btSoftBody* level = nullptr;
+  btSoftBody* upright = nullptr;
+  addCrossedCloths(scene, level, upright);
+  ASSERT_GT(scene.watch().meetings(), 0);
+  scene.step(1);
+  EXPECT_GT(scene.totals().meeting, 0);
+  scene.step(29);
+  const double fall = 9.81 * 0.5;
+  for (const btSoftBody* body : {level, upright}) {
+    ASSERT_TRUE(isFinite(*body));
+    EXPECT_NEAR(double(meanVelocity(*body).y()), -fall, 0.3) << "only damping and the other one act on it";
+    EXPECT_LT(largestSpeed(*body), fall + 2);
+    EXPECT_LT(largestStretch(*body), 1.3);
+  }
+  EXPECT_EQ(scene.totals().halts, 0);
+}
+
+TEST(ClothGuardBadStarts, WhatIsNotEntangledIsStillHeldApart) {
+  GuardScene scene;
+  scene.addFloor();
+  scene.add(wavySheet(10, 0.6));
+  scene.add(wavySheet(11, 0.6, btVector3(btScalar(0.03), btScalar(0.07), btScalar(0.04))));
+  PassageCheck& others = scene.watch();  // of these two
+  wetcloth::ClothPatch patch = levelSheet(6, 0.3, btVector3(2, btScalar(0.3), 0));
+  scene.add(patch);
+  patch.edgeU = btVector3(0, btScalar(0.3), btScalar(0.02));
+  patch.origin += btVector3(btScalar(0.14), btScalar(-0.13), btScalar(0.01));
+  scene.add(patch);
+  scene.step(75);
+  EXPECT_EQ(others.smallSteps(), 750);
+  EXPECT_EQ(others.passages(), 0);
+  EXPECT_GT(scene.totals().meeting, 0);
+  EXPECT_EQ(scene.totals().halts, 0);
+}
+
+// A sheet whose four edges are pinned, and a small one above it.
+struct Drum {
+  explicit Drum(GuardScene& scene, bool isAllPinned) {
+    wetcloth::ClothPatch patch = levelSheet(9, 0.5, btVector3(0, 0, 0));
+    using Edge = wetcloth::ClothPatch::Edge;
+    patch.pinnedEdges = {Edge::left, Edge::right, Edge::bottom, Edge::top};
+    for (int k = 0; isAllPinned && k < patch.nodeCount(); ++k) patch.pinnedNodes.push_back(k);
+    drum = &scene.add(patch);
+    patch = levelSheet(4, 0.15, btVector3(btScalar(0.01), btScalar(0.1), btScalar(0.02)));
+    for (int k = 0; k < patch.nodeCount(); ++k) {
+      if (isAllPinned || k == 5) patch.pinnedNodes.push_back(k);
+    }
+    small = &scene.add(patch);
+  }
+  void teleport(double way) const {
+    for (int k = 0; k < small->m_nodes.size(); ++k) {
+      btSoftBody::Node& node = small->m_nodes[k];
+      if (node.m_im == 0) node.m_x += btVector3(0, btScalar(way), 0);
+    }
+  }
+  btSoftBody* drum;
+  btSoftBody* small;
+};
+
+TEST(ClothGuardBadStarts, AClothThatIsPutThroughAnotherIsTold) {
+  GuardScene scene;
+  const Drum drum(scene, true);
+  scene.watch();
+  scene.step(5);
+  drum.teleport(-0.5);
+  scene.step(5);
+  EXPECT_GT(scene.passages(), 0);
+  EXPECT_GT(scene.totals().forced + scene.totals().meeting, 0);
+  EXPECT_TRUE(isFinite(*drum.drum));
+  EXPECT_TRUE(isFinite(*drum.small));
+}
+
+TEST(ClothGuardBadStarts, APinThatIsPutThroughAClothIsToldOrHoldsIt) {
+  for (const double way : {-0.3, -3.0, -300.0}) {
+    GuardScene scene;
+    const Drum drum(scene, false);
+    scene.watch();
+    scene.step(5);
+    drum.teleport(way);
+    scene.step(1);
+    drum.teleport(-way);
+    scene.step(30);
+    EXPECT_TRUE(scene.passages() == 0 || scene.totals().forced + scene.totals().meeting > 0) << way;
+    EXPECT_TRUE(isFinite(*drum.drum)) << way;
+    EXPECT_TRUE(isFinite(*drum.small)) << way;
+    EXPECT_EQ(scene.totals().halts, 0) << way;
+  }
+}
+
+}  // namespace
+}  // namespace wetcloth_test::cloth_guard_bad_starts_test
