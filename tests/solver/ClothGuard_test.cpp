@@ -170,10 +170,33 @@ TEST_P(ClothGuard, ClothsThatCollideKeepTheirMomentum) {
   }
 }
 
+// Layers that begin nearer than the thickness slowly part, and do not stop what they belong to.
+TEST(ClothGuardPromise, LayersNearerThanTheThicknessSlowlyPart) {
+  for (const btVector3& gravity : {kNoGravity, kEarthGravity}) {
+    Guard guard;
+    guard.thickness = 0.01;
+    GuardScene scene(guard, WorldKind::softRigid, gravity);
+    btSoftBody& lower = scene.add(levelSheet(6, 0.3, btVector3(0, 0, 0)));
+    const btVector3 near(btScalar(0.01), btScalar(0.003), btScalar(0.013));
+    btSoftBody& upper = scene.add(levelSheet(7, 0.3, near));
+    scene.watch();
+    scene.step(10);
+    EXPECT_EQ(scene.passages(), 0);
+    EXPECT_EQ(scene.totals().halts, 0);
+    const double fall = double(gravity.length()) / 6;
+    EXPECT_LT(largestSpeed(lower), fall + 1);
+    EXPECT_LT(largestSpeed(upper), fall + 1);
+    EXPECT_NEAR(double(meanVelocity(upper).y() + meanVelocity(lower).y()) / 2, -fall, 0.05);
+    EXPECT_GT(double(meanPosition(upper).y() - meanPosition(lower).y()), 0.003);
+  }
+}
+
 struct Variant {
   const char* name;
   Guard guard;
 };
+std::ostream& operator<<(std::ostream& out, const Variant& variant) { return out << variant.name; }
+
 class ClothGuardSettings : public testing::TestWithParam<Variant> {};
 INSTANTIATE_TEST_SUITE_P(, ClothGuardSettings,
                          testing::Values(Variant{"thin", {0, true, true, 5, 0.3}},
