@@ -3,6 +3,7 @@
 // counted by replacing operator new for the whole test program; Bullet's own go through btAlignedAlloc and are not
 // counted. Sanitizers bring an operator new of their own, so there the count is left out.
 
+#include "tests/solver/GuardScene.h"
 #include "tests/solver/SolverScene.h"
 #include "tests/support/BodyScene.h"
 #include "tests/support/InEveryWorld.h"
@@ -124,6 +125,21 @@ TEST_P(NoAllocation, InFillingAVertexBuffer) {
   const wetcloth::VertexBuffer buffer = {floats.data(), 100, {0, 10}, {3, 10}, {6, 10}, {9, 10}};
   EXPECT_EQ(allocationsIn([&] { wetcloth::fillVertexBuffer(cloth, buffer); }), 0);
   EXPECT_GT(floats.back(), 0);
+}
+
+// Two layers that lie on each other, with the guard: what Bullet allocates in its own step it does not take from here.
+TEST(NoAllocationOfTheGuard, InALayeredHeapAtRest) {
+  if (!WETCLOTH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer owns operator new";
+  GuardScene scene;
+  scene.addFloor();
+  scene.add(levelSheet(10, 0.5, btVector3(0, btScalar(0.02), 0)));
+  scene.add(levelSheet(11, 0.4, btVector3(btScalar(0.01), btScalar(0.04), btScalar(0.02))));
+  scene.step(120);
+  const long long pairs = scene.totals().pairs;
+  for (int step = 0; step < 60; ++step) {
+    ASSERT_EQ(allocationsIn([&] { scene.step(1); }), 0) << "in step " << step;
+  }
+  EXPECT_GT(scene.totals().pairs, pairs) << "something was held apart";
 }
 
 WETCLOTH_IN_EVERY_WORLD(NoAllocation);
