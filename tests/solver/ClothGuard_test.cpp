@@ -96,10 +96,10 @@ TEST(ClothGuardPromise, ASheetThrownAtItself) {
 
 // Two rods turn against each other, and come together as hands do. The sheet is 1.2 m x 1.6 m.
 struct Wringing {
-  static constexpr int kColumns = 17;
-  static constexpr int kRows = 23;
+  static constexpr int kColumns = 13;
+  static constexpr int kRows = 17;
   static constexpr double kTurns = 2;
-  static constexpr int kSteps = 120;
+  static constexpr int kSteps = 160;
 
   explicit Wringing(GuardScene& scene) {
     wetcloth::ClothPatch patch;
@@ -114,8 +114,8 @@ struct Wringing {
   void turn(int step) const {
     const double done = double(step) / kSteps;
     const double angle = 2 * 3.14159265358979 * kTurns * done;
-    const double halfWidth = 0.6 * (1 - 0.75 * std::min(1.0, 3 * done));
-    const double height = 1.6 * (1 - 0.3 * done);
+    const double halfWidth = 0.6 * (1 - 0.5 * std::min(1.0, 3 * done));
+    const double height = 1.6 * (1 - 0.5 * done);
     for (int i = 0; i < kColumns; ++i) {
       const double x = halfWidth * (2.0 * i / (kColumns - 1) - 1);
       body->m_nodes[i].m_x = btVector3(btScalar(x), 0, 0);
