@@ -16,8 +16,8 @@
 namespace wetcloth_test::guard_tiles_test {
 namespace {
 
+using wetcloth::GuardCandidates;
 using wetcloth::GuardMesh;
-using wetcloth::GuardPair;
 using wetcloth::GuardTiles;
 using wetcloth::collision::ContinuousCheck;
 using wetcloth::collision::Pair;
@@ -36,6 +36,13 @@ Key keyOf(int first, std::array<int, 4> node) {
   }
   return {first, node[0], node[1], node[2], node[3]};
 }
+
+// How many of the nodes are of the first part, and the nodes.
+struct FoundPair {
+  FoundPair(int count, const int (&nodes)[4]) : first(count) { std::copy(nodes, nodes + 4, node); }
+  int first;
+  int node[4];
+};
 
 // Cloths in a tangle, their nodes one after the other.
 class Tangle {
@@ -61,7 +68,7 @@ class Tangle {
     for (int k = 0; k < body.m_nodes.size(); ++k) parts.vertices.push_back(first + k);
   }
   bool isGrid(int node) const { return m_meshes[std::size_t(cloth[std::size_t(node)])]->isGrid(); }
-  std::vector<GuardPair> find(const std::vector<Place>& to, const GuardTiles::Expectation& expectation,
+  std::vector<FoundPair> find(const std::vector<Place>& to, const GuardTiles::Expectation& expectation,
                               const GuardTiles::Scope& scope) const {
     wetcloth::GuardNodes nodes;
     nodes.resize(from.size());
@@ -75,8 +82,11 @@ class Tangle {
     }
     GuardTiles tiles;
     for (std::size_t k = 0; k < m_meshes.size(); ++k) tiles.add(*m_meshes[k], m_firstNodes[k]);
-    std::vector<GuardPair> pairs;
-    tiles.findPairs(nodes, expectation, scope, pairs);
+    GuardCandidates candidates;
+    tiles.findPairs(nodes, expectation, scope, candidates);
+    std::vector<FoundPair> pairs;
+    for (const auto& pair : candidates.vertexFace) pairs.push_back({1, pair.node});
+    for (const auto& pair : candidates.edgeEdge) pairs.push_back({2, pair.node});
     return pairs;
   }
 
@@ -164,9 +174,9 @@ class GuardTilesOfATangle : public testing::Test {
   }
   // Where nodes may be: on their way for all small steps, and some way off.
   void expectFound(const std::vector<Place>& to, const GuardTiles::Expectation& expectation) {
-    const std::vector<GuardPair> pairs = m_tangle.find(to, expectation, {true, true});
+    const std::vector<FoundPair> pairs = m_tangle.find(to, expectation, {true, true});
     std::set<Key> found;
-    for (const GuardPair& pair : pairs) {
+    for (const FoundPair& pair : pairs) {
       const Key key = keyOf(pair.first, {pair.node[0], pair.node[1], pair.node[2], pair.node[3]});
       EXPECT_TRUE(found.insert(key).second) << "twice";
       EXPECT_EQ(std::set<int>(pair.node, pair.node + 4).size(), 4u) << "a node is shared";
@@ -223,12 +233,12 @@ TEST_F(GuardTilesOfATangle, AllThatMayMeetIsFoundOnce) {
 TEST_F(GuardTilesOfATangle, OnlyWhatIsAskedFor) {
   const std::vector<Place> to = moved(0.01);
   const GuardTiles::Expectation expectation = {2, btScalar(0.001), btScalar(0.002)};
-  const auto isSelf = [&](const GuardPair& pair) {
+  const auto isSelf = [&](const FoundPair& pair) {
     return m_tangle.cloth[std::size_t(pair.node[0])] == m_tangle.cloth[std::size_t(pair.node[pair.first])];
   };
-  const std::vector<GuardPair> all = m_tangle.find(to, expectation, {true, true});
-  const std::vector<GuardPair> self = m_tangle.find(to, expectation, {true, false});
-  const std::vector<GuardPair> others = m_tangle.find(to, expectation, {false, true});
+  const std::vector<FoundPair> all = m_tangle.find(to, expectation, {true, true});
+  const std::vector<FoundPair> self = m_tangle.find(to, expectation, {true, false});
+  const std::vector<FoundPair> others = m_tangle.find(to, expectation, {false, true});
   EXPECT_TRUE(std::all_of(self.begin(), self.end(), isSelf));
   EXPECT_TRUE(std::none_of(others.begin(), others.end(), isSelf));
   EXPECT_EQ(self.size() + others.size(), all.size());
