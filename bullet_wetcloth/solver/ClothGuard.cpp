@@ -18,9 +18,11 @@ constexpr double kThicknessOfEdge = 0.5;  // of the mean edge, at most: neighbou
 constexpr btScalar kSlackOfWay = btScalar(0.1);
 constexpr btScalar kLeastSlackOfEdge = btScalar(0.01);
 constexpr btScalar kMostSlackOfEdge = btScalar(0.05);
-constexpr btScalar kRoundingsOfSlack = 40;
-constexpr btScalar kUsedSlack = btScalar(0.9);  // the rest is for rounding
-constexpr int kMostLooks = 6;                   // in a small step
+constexpr btScalar kMostSlackFactor = 64;  // when what was held apart left what had been expected of it
+constexpr btScalar kRoundingsOfSlack = 200;
+constexpr btScalar kPartingOfSlack = btScalar(0.1);  // in a small step
+constexpr btScalar kUsedSlack = btScalar(0.9);       // the rest is for rounding
+constexpr int kMostLooks = 6;                        // in a small step
 
 // Whether all places along one axis are where they were expected.
 struct OnTheWay {
@@ -93,7 +95,7 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
     }
   }
   m_rounding = farthest * std::numeric_limits<btScalar>::epsilon();
-  m_contact.leastGap = std::max(16 * m_rounding, btScalar(1e-9));
+  m_contact.rounding = m_rounding;
   m_pairs.clear();
   m_ahead = parameters.every;
   m_isFirst = true;
@@ -120,25 +122,53 @@ void ClothGuard::hold() {
   } else {
     ++m_age;
   }
+  forgetAside();
+  if (!m_pairs.isEmpty()) {
+    gather();
+    m_pairs.part(m_nodes);
+    scatter();
+  }
   bool isHeld = false;
-  for (int k = 0; k < kMostLooks && !isHeld; ++k) {
+  for (int k = 0; k < kMostLooks; ++k) {
     enforce();
     isHeld = isWhereExpected() && m_pairs.settle(m_nodes);
     if (isHeld) break;
-    m_ahead = std::max(1, std::min(m_ahead, m_age) / 2);
+    m_ahead = k == 0 ? std::max(1, std::min(m_ahead, m_age) / 2) : 1;
+    m_slackFactor = std::min(2 * m_slackFactor, kMostSlackFactor);
     lookAlongPresentWays();
+    gather();
+    isHeld = m_pairs.settle(m_nodes);  // where nodes are is what is expected now
+    if (isHeld) break;
   }
-  if (!isHeld) stopAll();
+  m_slackFactor = 1;
+  isHeld ? keepAside() : stopAll();
   keep();
 }
 
 void ClothGuard::enforce() {
   if (m_pairs.isEmpty()) return;
   gather();
-  const GuardPairs::Outcome outcome = m_pairs.enforce(m_nodes, m_contact);
+  const GuardPairs::Outcome outcome = m_pairs.enforce(m_nodes);
   scatter();
   m_totals.stopped += outcome.stopped;
   m_totals.forced += outcome.forced;
+}
+
+void ClothGuard::forgetAside() {
+  for (GuardNodes::Place& aside : m_nodes.aside) aside = {};
+}
+
+// What moved nodes aside has changed where they would be without links and contacts, and so no velocity.
+void ClothGuard::keepAside() {
+  if (m_pairs.isEmpty()) return;
+  for (std::size_t c = 0; c < m_cloths.size(); ++c) {
+    const Cloth& cloth = m_cloths[c];
+    for (int node = 0; node < cloth.nodeCount; ++node) {
+      const std::size_t slot = toSize(cloth.slots[node]);
+      const GuardNodes::Place& aside = m_nodes.aside[m_first[c] + toSize(node)];
+      for (std::size_t axis = 0; axis < 3; ++axis) cloth.nodes.predicted[axis][slot] += aside.at[axis];
+    }
+  }
 }
 
 void ClothGuard::stopAll() {
@@ -210,12 +240,14 @@ void ClothGuard::look() {
   }
   m_slack = std::min(std::max(kSlackOfWay * static_cast<btScalar>(m_ahead) * longest, kLeastSlackOfEdge * m_edge),
                      kMostSlackOfEdge * m_edge);
+  m_slack = std::min(m_slackFactor * m_slack, kMostSlackOfEdge * m_edge * std::max(btScalar(1), m_slackFactor / 16));
   m_slack = std::max(m_slack, kRoundingsOfSlack * m_rounding);
   m_candidates.clear();
+  m_contact.mostParting = kPartingOfSlack * m_slack;
   const GuardTiles::Expectation expectation = {m_ahead, m_slack, m_contact.thickness};
   m_tiles.findPairs(m_nodes, expectation, {m_parameters.self, m_parameters.others}, m_candidates);
   m_totals.candidates += static_cast<long long>(m_candidates.size());
-  m_totals.meeting = m_pairs.look(m_nodes, m_candidates, expectation, m_contact);
+  m_totals.meeting = std::max(m_totals.meeting, m_pairs.look(m_nodes, m_candidates, expectation, m_contact));
   m_totals.pairs += static_cast<long long>(m_pairs.size());
 }
 
@@ -229,7 +261,6 @@ void ClothGuard::gather() {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         m_nodes.from[i].at[axis] = m_kept[c].last[axis][slot] + away[static_cast<int>(axis)];
         m_nodes.to[i].at[axis] = cloth.nodes.position[axis][slot] + away[static_cast<int>(axis)];
-        m_nodes.aside[i].at[axis] = 0;
       }
       m_nodes.inverseMass[i] = cloth.nodes.inverseMass[slot];
     }
@@ -243,11 +274,8 @@ void ClothGuard::scatter() {
     for (int node = 0; node < cloth.nodeCount; ++node) {
       const std::size_t slot = toSize(cloth.slots[node]);
       if (!(cloth.nodes.inverseMass[slot] > 0)) continue;
-      GuardNodes::Place& aside = m_nodes.aside[m_first[c] + toSize(node)];
       for (int axis = 0; axis < 3; ++axis) {
         cloth.nodes.position[axis][slot] = m_nodes.to[m_first[c] + toSize(node)].at[axis] - away[axis];
-        cloth.nodes.predicted[axis][slot] += aside.at[axis];
-        aside.at[axis] = 0;
       }
     }
   }

@@ -47,6 +47,8 @@ class ClothGuard {
   void lookAlongLastWays();
   void look();
   void enforce();
+  void forgetAside();
+  void keepAside();
   void gather();
   void scatter();
   void stopAll();
@@ -74,6 +76,7 @@ class ClothGuard {
   int m_age = 0;    // small steps since the last look, that one included
   int m_ahead = 1;  // for how many it was
   bool m_isFirst = true;
+  btScalar m_slackFactor = 1;
   btScalar m_slack = 0;     // how far nodes may be from their way, on each axis [m]
   btScalar m_edge = 0;      // the mean edge [m]
   btScalar m_rounding = 0;  // of a place [m]

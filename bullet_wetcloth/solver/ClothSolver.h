@@ -49,7 +49,7 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
     long long stopped = 0;     ///< nodes that were slowed because nothing else kept them apart, each small step counts
     long long halts = 0;       ///< small steps in which all cloths stood still
     long long forced = 0;      ///< pairs that imposed nodes (pins) drove through each other, or might have
-    long long meeting = 0;     ///< pairs that met at the last look, and so may pass
+    long long meeting = 0;     ///< the most pairs that met at one look already, and so may pass
   };
 
   /// What can be set, with units and ranges.

@@ -16,11 +16,17 @@ inline namespace WETCLOTH_PRECISION {
 namespace {
 
 constexpr int kPasses = 4;
-constexpr int kSlowings = 8;                  // of what still violates a plane
+constexpr int kSlowings = 100;                // of what still violates a plane
+constexpr int kSlowingsInPart = 4;            // after these, groups go as one
 constexpr btScalar kReserve = btScalar(0.1);  // of the thickness, that is not used up at once
 constexpr btScalar kUsed = btScalar(0.5);     // of what is left of it, in a small step
 constexpr btScalar kParts = btScalar(0.05);   // of the thickness that is missing, in a small step
-constexpr double kOfTheWay = 0.9;             // to the least gap, when a group is slowed
+// In roundings of a place. A measured gap is wrong by less than 14 of them: see docs/guard.md.
+constexpr btScalar kMeeting = 1;  // a gap that is computed in double has to be more
+constexpr btScalar kSmall = 32;   // a gap does not shrink below, and is computed in double there
+constexpr btScalar kNoise = 3;    // what moving two parts as one may do to a gap
+constexpr btScalar kWorthParting = 128;
+constexpr double kOfTheWay = 0.9;  // to the least gap, when a group is slowed
 
 void placesOf(const GuardPair& pair, const std::vector<GuardNodes::Place>& from, double (&places)[4][3]) {
   for (int node = 0; node < 4; ++node) {
@@ -107,7 +113,7 @@ long long GuardPairs::look(const GuardNodes& nodes, const GuardCandidates& pairs
   clear();
   // Each of two nodes may leave its way by the slack on each axis.
   const btScalar slack = btScalar(2 * std::sqrt(3.0)) * expectation.slack;
-  const btScalar near = std::max(contact.thickness, contact.leastGap) + slack;
+  const btScalar near = reach() + slack;
   return look<1>(nodes, pairs.vertexFace, expectation.steps, near, m_vertexFace) +
          look<2>(nodes, pairs.edgeEdge, expectation.steps, near, m_edgeEdge);
 }
@@ -145,7 +151,7 @@ bool GuardPairs::addPlane(const GuardNodes& nodes, const GuardPair& pair, int st
   int low = 0, high = 0;
   const double gap = gapAlong(normal, places, first, low, high);
   plane.gap = static_cast<btScalar>(gap);
-  if (!(plane.gap > m_contact.leastGap)) return false;
+  if (!(plane.gap > kMeeting * m_contact.rounding)) return false;
   for (int node = 0; node < 4; ++node) {
     for (int k = 0; k < 3; ++k) ends[node][k] = places[node][k] + steps * (ends[node][k] - places[node][k]);
   }
@@ -154,13 +160,18 @@ bool GuardPairs::addPlane(const GuardNodes& nodes, const GuardPair& pair, int st
   return true;
 }
 
-// A gap may shrink by half in a small step, so that a normal stays known to all its digits.
-btScalar GuardPairs::leastGapOf(btScalar gapBefore) const {
-  return std::max(m_contact.leastGap, std::min(kUsed * gapBefore, kReserve * m_contact.thickness));
+// What is nearer than that is held apart, whatever the thickness.
+btScalar GuardPairs::reach() const { return std::max(m_contact.thickness, kWorthParting * m_contact.rounding); }
+
+// A gap may shrink by half in a small step, so that a normal stays known to all its digits; when little more than
+// rounding is left it does not shrink.
+btScalar GuardPairs::wantedGapOf(btScalar gapBefore) const {
+  const btScalar shrunk = std::min(kUsed * gapBefore, kReserve * m_contact.thickness);
+  return std::min(std::max(kSmall * m_contact.rounding, shrunk), gapBefore);
 }
 
 bool GuardPairs::isViolated(const GuardPlanes& planes, std::size_t plane, btScalar gap) const {
-  return !(gap >= leastGapOf(planes.gap(plane)));
+  return !(gap >= wantedGapOf(planes.gap(plane)) - kNoise * m_contact.rounding);
 }
 
 bool GuardPairs::holds(const GuardPlanes& planes, const GuardNodes& nodes) {
@@ -169,10 +180,24 @@ bool GuardPairs::holds(const GuardPlanes& planes, const GuardNodes& nodes) {
   for (std::size_t begin = 0; begin < planes.size(); begin += GuardPlanes::kAtOnce) {
     measures.push_back(planes.measure(begin, nodes.to));
     for (std::size_t k = 0; k < std::min(GuardPlanes::kAtOnce, planes.size() - begin); ++k) {
-      if (isViolated(planes, begin + k, measures.back().gap[k])) return false;
+      const btScalar gap = measures.back().gap[k];
+      if (isViolated(planes, begin + k, gap)) return false;
+      if (gap < kSmall * m_contact.rounding && !isApart(planes, begin + k, nodes)) return false;
     }
   }
   return true;
+}
+
+// Beyond any doubt, since it is computed in double.
+bool GuardPairs::isApart(const GuardPlanes& planes, std::size_t plane, const GuardNodes& nodes) const {
+  GuardPair pair;
+  for (int k = 0; k < 4; ++k) pair.node[k] = planes.node(plane, k);
+  double places[4][3];
+  placesOf(pair, nodes.to, places);
+  const btVector3 n = planes.normal(plane);
+  const double normal[3] = {static_cast<double>(n.x()), static_cast<double>(n.y()), static_cast<double>(n.z())};
+  int low = 0, high = 0;
+  return gapAlong(normal, places, planes.first(), low, high) > static_cast<double>(kMeeting * m_contact.rounding);
 }
 
 bool GuardPairs::settle(const GuardNodes& nodes) {
@@ -186,36 +211,42 @@ bool GuardPairs::settle(const GuardNodes& nodes) {
 
 // --- contact --------------------------------------------------------------------------------------------------------
 
-GuardPairs::Outcome GuardPairs::enforce(GuardNodes& nodes, const Contact& contact) {
-  m_contact = contact;
-  Outcome outcome;
+void GuardPairs::part(GuardNodes& nodes) const {
   part(m_vertexFace, nodes);
   part(m_edgeEdge, nodes);
+}
+
+GuardPairs::Outcome GuardPairs::enforce(GuardNodes& nodes) {
+  Outcome outcome;
   bool isClear = false;
   for (int k = 0; k < kPasses && !isClear; ++k) {
     isClear = pass(m_vertexFace, nodes);
     isClear = pass(m_edgeEdge, nodes) && isClear;
   }
+  m_groups.clear(nodes.to.size());
   for (int k = 0; k < kSlowings; ++k) {
-    const long long slowed = slow(nodes, k + 1 >= kSlowings / 2);
-    if (slowed == 0) return outcome;
-    outcome.stopped += slowed;
+    if (!slow(nodes, k >= kSlowingsInPart)) {
+      outcome.stopped = static_cast<long long>(m_groups.size());
+      return outcome;
+    }
   }
+  outcome.stopped = static_cast<long long>(m_groups.size());
   outcome.forced = release(nodes);
   return outcome;
 }
 
-// Those within the thickness part slowly, without a change of velocity.
 void GuardPairs::part(const GuardPlanes& planes, GuardNodes& nodes) const {
   for (std::size_t plane = 0; plane < planes.size(); ++plane) {
-    if (!(planes.apart(plane) < m_contact.thickness)) continue;
+    const btScalar missing = reach() - planes.apart(plane);
+    if (!(missing > 0)) continue;
+    const btScalar wanted = std::max(kParts * missing, 2 * kNoise * m_contact.rounding);
+    const btScalar way = std::min(wanted, m_contact.mostParting) - planes.nearest(plane, nodes.aside).apart;
     const btScalar yield = yieldOf(planes, plane, nodes);
-    if (!(yield > 0)) continue;
-    const btScalar way = kParts * (m_contact.thickness - planes.apart(plane)) / yield;
+    if (!(yield > 0) || !(way > 0)) continue;
     const btVector3 normal = planes.normal(plane);
     for (int k = 0; k < 4; ++k) {
       const std::size_t i = toSize(planes.node(plane, k));
-      const btScalar share = way * planes.weight(plane, k) * nodes.inverseMass[i];
+      const btScalar share = way * planes.weight(plane, k) * nodes.inverseMass[i] / yield;
       shift(nodes.to[i], normal, share);
       shift(nodes.aside[i], normal, share);
     }
@@ -229,7 +260,7 @@ bool GuardPairs::pass(const GuardPlanes& planes, GuardNodes& nodes) const {
     const GuardPlanes::Measure measure = planes.measure(begin, nodes.to);
     for (std::size_t k = 0; k < std::min(GuardPlanes::kAtOnce, planes.size() - begin); ++k) {
       const std::size_t plane = begin + k;
-      if (measure.apart[k] < std::min(planes.apart(plane), m_contact.thickness)) keepApart(planes, plane, nodes);
+      if (measure.apart[k] < std::min(planes.apart(plane), reach())) keepApart(planes, plane, nodes);
       if (!isViolated(planes, plane, measure.gap[k])) continue;
       isClear = false;
       keepSides(planes, plane, nodes);
@@ -240,7 +271,7 @@ bool GuardPairs::pass(const GuardPlanes& planes, GuardNodes& nodes) const {
 
 // Within the thickness the two places do not come nearer, and friction slows how they slide.
 void GuardPairs::keepApart(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const {
-  const btScalar missing = std::min(planes.apart(plane), m_contact.thickness) - planes.nearest(plane, nodes.to).apart;
+  const btScalar missing = std::min(planes.apart(plane), reach()) - planes.nearest(plane, nodes.to).apart;
   const btScalar yield = yieldOf(planes, plane, nodes);
   if (!(missing > 0) || !(yield > 0)) return;
   const btVector3 normal = planes.normal(plane);
@@ -265,7 +296,7 @@ void GuardPairs::keepApart(const GuardPlanes& planes, std::size_t plane, GuardNo
 // Moves the two nodes that are nearest to the other side.
 void GuardPairs::keepSides(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const {
   const GuardPlanes::Nearest nearest = planes.nearest(plane, nodes.to);
-  const btScalar missing = leastGapOf(planes.gap(plane)) * btScalar(1.001) - nearest.gap;
+  const btScalar missing = wantedGapOf(planes.gap(plane)) - nearest.gap;
   const std::size_t a = toSize(planes.node(plane, nearest.low));
   const std::size_t b = toSize(planes.node(plane, nearest.high));
   const btScalar yield = nodes.inverseMass[a] + nodes.inverseMass[b];
@@ -277,9 +308,10 @@ void GuardPairs::keepSides(const GuardPlanes& planes, std::size_t plane, GuardNo
 
 // --- what is left ---------------------------------------------------------------------------------------------------
 
-// Returns how many nodes had to be slowed. @param isLast  no motion against the mean is left
-long long GuardPairs::slow(GuardNodes& nodes, bool isLast) {
-  m_groups.clear(nodes.to.size());
+// Returns whether something violated a plane, so that groups had to be slowed; those of earlier calls stay together.
+// @param asOne  no motion against the mean is left
+bool GuardPairs::slow(GuardNodes& nodes, bool asOne) {
+  bool isViolatedAnywhere = false;
   const auto forEachViolated = [&](const auto& action) {
     for (const GuardPlanes* const planes : {&m_vertexFace, &m_edgeEdge}) {
       for (std::size_t begin = 0; begin < planes->size(); begin += GuardPlanes::kAtOnce) {
@@ -291,18 +323,19 @@ long long GuardPairs::slow(GuardNodes& nodes, bool isLast) {
     }
   };
   forEachViolated([&](const GuardPlanes& planes, std::size_t plane, btScalar) {
+    isViolatedAnywhere = true;
     m_groups.join({planes.node(plane, 0), planes.node(plane, 1), planes.node(plane, 2), planes.node(plane, 3)});
   });
-  if (m_groups.size() == 0) return 0;
+  if (!isViolatedAnywhere) return false;
   m_groups.measure(nodes);
   forEachViolated([&](const GuardPlanes& planes, std::size_t plane, btScalar gap) {
     const double before = static_cast<double>(planes.gap(plane));
-    const double wanted = static_cast<double>(leastGapOf(planes.gap(plane)));
-    const double share = isLast ? 0 : kOfTheWay * (before - wanted) / (before - static_cast<double>(gap));
+    const double wanted = static_cast<double>(wantedGapOf(planes.gap(plane)));
+    const double share = asOne ? 0 : kOfTheWay * (before - wanted) / (before - static_cast<double>(gap));
     m_groups.limit(planes.node(plane, 0), std::max(share, 0.0));
   });
   m_groups.apply(nodes);
-  return static_cast<long long>(m_groups.size());
+  return true;
 }
 
 // Imposed nodes that move against each other may leave no room.

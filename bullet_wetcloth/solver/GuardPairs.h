@@ -18,9 +18,10 @@ class GuardPairs {
  public:
   /// How parts act on each other.
   struct Contact {
-    btScalar thickness;  ///< nearer than that they do not approach, and slowly part [m]
-    btScalar friction;   ///< coefficient
-    btScalar leastGap;   ///< more than rounding does to a gap [m]
+    btScalar thickness;    ///< nearer than that they do not approach, and slowly part [m]
+    btScalar friction;     ///< coefficient
+    btScalar rounding;     ///< of a place [m]
+    btScalar mostParting;  ///< how far they part in a small step at most [m]
   };
   /// What a small step came to.
   struct Outcome {
@@ -37,8 +38,10 @@ class GuardPairs {
   bool isEmpty() const { return size() == 0; }
   std::size_t size() const { return m_vertexFace.size() + m_edgeEdge.size(); }
 
+  /// Parts that are within the thickness move away from each other, without a change of velocity. Once a small step.
+  void part(GuardNodes& nodes) const;
   /// Moves the nodes' places at the end of a small step so that no part leaves its side.
-  Outcome enforce(GuardNodes& nodes, const Contact& contact);
+  Outcome enforce(GuardNodes& nodes);
   /// Whether all parts are on their sides. If they are, the small step is over for the planes.
   bool settle(const GuardNodes& nodes);
   /// Gives up planes that imposed nodes leave no room, and returns how many.
@@ -50,14 +53,16 @@ class GuardPairs {
                  GuardPlanes& planes);
   template <int first>
   bool addPlane(const GuardNodes& nodes, const GuardPair& pair, int steps, btScalar near, GuardPlanes& planes) const;
-  btScalar leastGapOf(btScalar gapBefore) const;
+  btScalar reach() const;
+  btScalar wantedGapOf(btScalar gapBefore) const;
   bool isViolated(const GuardPlanes& planes, std::size_t plane, btScalar gap) const;
   bool holds(const GuardPlanes& planes, const GuardNodes& nodes);
+  bool isApart(const GuardPlanes& planes, std::size_t plane, const GuardNodes& nodes) const;
   void part(const GuardPlanes& planes, GuardNodes& nodes) const;
   bool pass(const GuardPlanes& planes, GuardNodes& nodes) const;
   void keepApart(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const;
   void keepSides(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const;
-  long long slow(GuardNodes& nodes, bool isLast);
+  bool slow(GuardNodes& nodes, bool asOne);
 
   GuardPlanes m_vertexFace{1};
   GuardPlanes m_edgeEdge{2};
