@@ -192,10 +192,12 @@ void PassageFinder::consider(Pair pair, const Subject& subject) {
   if (sides.before == 0 || sides.before == sides.after) return;
   Block& block = blockOf(pair);
   block.queries.emplace_back();
-  for (std::size_t k = 0; k < 4; ++k) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      block.queries.back().start[k][axis] = at[k]->start(axis);
-      block.queries.back().end[k][axis] = at[k]->end(axis);
+  collision::Query<btScalar>& query = block.queries.back();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double origin = static_cast<double>(subject.first->origin()[static_cast<int>(axis)]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      query.start[k][axis] = static_cast<btScalar>(at[k]->at[axis][0] - origin);
+      query.end[k][axis] = static_cast<btScalar>(at[k]->at[axis][1] - origin);
     }
   }
   block.questions.push_back({subject, sides.before, sides.after});

@@ -197,6 +197,33 @@ bool SweptFaces::advance(const btSoftBody& body) {
   return moved;
 }
 
+void SweptFaces::advance(const btScalar* places, const btVector3& origin) {
+  m_origin = origin;
+  for (Position& position : m_positions) {
+    for (int k = 0; k < 3; ++k) {
+      double(&at)[2] = position.at[k];
+      at[0] = at[1];
+      at[1] = static_cast<double>(origin[k]) + static_cast<double>(*places++);
+    }
+  }
+}
+
+void SweptFaces::stand() {
+  for (Position& position : m_positions) {
+    for (double(&at)[2] : position.at) at[0] = at[1];
+  }
+}
+
+void SweptFaces::correct(const btSoftBody& body) {
+  for (std::size_t i = 0; i < m_positions.size(); ++i) {
+    const btVector3& now = body.m_nodes[static_cast<int>(i)].m_x;
+    for (int k = 0; k < 3; ++k) {
+      double(&at)[2] = m_positions[i].at[k];
+      if (static_cast<btScalar>(at[1]) != now[k]) at[1] = static_cast<double>(now[k]);
+    }
+  }
+}
+
 void SweptFaces::refit() {
   for (std::size_t i = 0; i < m_positions.size(); ++i) m_nodeBoxes[i] = sweptBy(m_positions[i]);
   refitParts(m_vertices, m_nodeBoxes);
@@ -237,12 +264,15 @@ void SweptFaces::transferState(StateArchive& archive, const btSoftBody& body) {
     if (isKnown[static_cast<std::size_t>(face)]) archive.fail("a face is in an audit twice");
     isKnown[static_cast<std::size_t>(face)] = true;
   }
+  btVector3 origin = m_origin;
+  archive.local(origin);
   for (Position& position : positions) {
     for (auto& axis : position.at) archive.value(axis[0], axis[1]);
   }
   if (!archive.isRestoring()) return;
   build(body, std::move(order), nullptr);
   m_positions = std::move(positions);
+  m_origin = origin;
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -44,7 +44,8 @@ class SweptFaces {
     std::vector<Nodes> nodes;
     SweptBoxes boxes;
   };
-  /// Where a node is at both moments: the numbers of the body, as the double that the volumes are computed in.
+  /// Where a node is at both moments: the numbers of the body or of its solver, as the double that the volumes are
+  /// computed in.
   struct Position {
     double at[3][2];
     btScalar start(std::size_t axis) const { return static_cast<btScalar>(at[axis][0]); }
@@ -61,10 +62,19 @@ class SweptFaces {
   void restart(const btSoftBody& body);
   /// The end becomes the start, and the body's present positions the end. Returns whether any node moved.
   bool advance(const btSoftBody& body);
+  /// The same with places relative to an origin, x, y, z of each node [m]: in double, so that nothing is rounded. The
+  /// origin is near the body from then on.
+  void advance(const btScalar* places, const btVector3& origin);
+  /// The end becomes the start, too.
+  void stand();
+  /// The body's present position becomes the end of each node that is not there already, up to rounding.
+  void correct(const btSoftBody& body);
   /// Fits the boxes to the positions. A face with a node that is not finite and what belongs to it get empty boxes.
   void refit();
 
   const btSoftBody* body() const { return m_body; }
+  /// Near the body, or nothing: what is computed in the body's own precision is computed from here [m].
+  const btVector3& origin() const { return m_origin; }
   const Position& position(int node) const { return m_positions[static_cast<std::size_t>(node)]; }
   const Parts<1>& vertices() const { return m_vertices; }
   const Parts<2>& edges() const { return m_edges; }
@@ -124,6 +134,7 @@ class SweptFaces {
   int m_faceCount = 0;
   std::vector<int> m_order;  // of the faces, in the tree
   std::vector<Position> m_positions;
+  btVector3 m_origin{0, 0, 0};
   std::vector<SweptBox> m_nodeBoxes;
   Parts<1> m_vertices;
   Parts<2> m_edges;

@@ -4,8 +4,8 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetCloth.h"
 #include "bullet_wetcloth/WetClothWorld.h"
+#include "bullet_wetcloth/audit/AuditedBody.h"
 #include "bullet_wetcloth/audit/PassageFinder.h"
-#include "bullet_wetcloth/audit/SweptFaces.h"
 #include "bullet_wetcloth/bullet/RequireFaces.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -23,7 +23,7 @@ using collision::Pair;
 
 /// Another soft body of the world.
 struct CollisionAudit::Other {
-  std::unique_ptr<SweptFaces> faces;
+  std::unique_ptr<AuditedBody> body;
   bool isInWorld = true;
   bool isNew = true;  // where it was before this substep is not known
 };
@@ -68,7 +68,7 @@ Passage passageOf(Pair pair, const PassageFinder::Subject& subject, const collis
 
 }  // namespace
 
-CollisionAudit::CollisionAudit(Parameters parameters) : m_own(std::make_unique<SweptFaces>()) {
+CollisionAudit::CollisionAudit(Parameters parameters) : m_own(std::make_unique<AuditedBody>()) {
   m_passages.reserve(static_cast<std::size_t>(kMostKept));
   setParameters(std::move(parameters));
 }
@@ -77,8 +77,10 @@ void CollisionAudit::setParameters(Parameters parameters) {
   requireValid(parameters);
   if (!m_finder || parameters.tier != m_parameters.tier) {
     std::unique_ptr<PassageFinder> finder = makeFinder(parameters.tier);
-    if (m_finder) m_totals.candidatePairs += m_finder->candidates();
+    std::unique_ptr<PassageFinder> smallFinder = makeFinder(parameters.tier);
+    if (m_finder) m_totals.candidatePairs += m_finder->candidates() + m_smallFinder->candidates();
     m_finder = std::move(finder);
+    m_smallFinder = std::move(smallFinder);
   }
   if (!parameters.others) m_others.clear();
   m_parameters = std::move(parameters);
@@ -88,7 +90,7 @@ std::unique_ptr<PassageFinder> CollisionAudit::makeFinder(collision::Tier tier) 
   const auto count = [this](Pair pair, const PassageFinder::Subject& subject, const collision::Contact& contact) {
     ++(pair == Pair::vertexFace ? m_totals.vertexFace : m_totals.edgeEdge);
     Passage passage = passageOf(pair, subject, contact);
-    passage.time = m_time + contact.time * (m_lookEnd - m_time);
+    passage.time = m_lookBegin + contact.time * (m_lookEnd - m_lookBegin);
     if (m_passages.size() < static_cast<std::size_t>(kMostKept)) m_passages.push_back(passage);
     if (m_parameters.onPassage) m_parameters.onPassage(passage);
   };
@@ -99,7 +101,7 @@ CollisionAudit::~CollisionAudit() = default;
 
 AuditTotals CollisionAudit::totals() const {
   AuditTotals totals = m_totals;
-  totals.candidatePairs += m_finder->candidates();
+  totals.candidatePairs += m_finder->candidates() + m_smallFinder->candidates();
   return totals;
 }
 
@@ -131,6 +133,7 @@ void CollisionAudit::apply(WetCloth& cloth, const Step& step) {
   m_time = step.time;
   m_dt = worldStepOf(cloth, step);
   m_isPending = true;
+  observe();
 }
 
 void CollisionAudit::look() {
@@ -144,29 +147,81 @@ void CollisionAudit::look() {
 void CollisionAudit::restart() {
   m_passages.clear();
   m_finder->forget();
-  m_own->restart(m_cloth->body());
+  m_smallFinder->forget();
+  m_own->restart();
   m_others.clear();
   followOthers();
   m_isFollowing = true;
 }
 
+void CollisionAudit::observe() {
+  m_own->observe();
+  for (const Other& other : m_others) other.body->observe();
+}
+
 void CollisionAudit::lookUntil(double time) {
   m_passages.clear();
+  m_lookBegin = m_time;
   m_lookEnd = time;
   m_totals.seconds += time - m_time;
   if (m_isPending) ++m_totals.substeps;
-  const bool ownMoved = m_own->advance(m_cloth->body());
+  const bool ownMoved = m_own->advance();
   const bool othersMoved = followOthers();
-  if (!ownMoved && !othersMoved) return;
-  m_own->refit();
+  const bool isComplete = (!ownMoved && !othersMoved) || lookAtWhole();
+  if (!lookAtSmallSteps(time) || !isComplete) sayIncomplete();
+}
+
+// What no small steps are known of. Returns whether all pairs were looked at.
+bool CollisionAudit::lookAtWhole() {
+  const bool hasSmallSteps = m_own->smallSteps() > 0;
+  bool isFitted = false;
+  const auto own = [&]() -> const SweptFaces& {
+    if (!isFitted) m_own->whole().refit();
+    isFitted = true;
+    return m_own->whole();
+  };
   m_finder->begin(mostCandidates());
-  if (m_parameters.self) m_finder->lookAt(*m_own);
+  if (m_parameters.self && !hasSmallSteps) m_finder->lookAt(own());
   for (const Other& other : m_others) {
-    if (other.isNew) continue;
-    other.faces->refit();
-    m_finder->lookAt(*m_own, *other.faces);
+    if (other.isNew || (hasSmallSteps && other.body->smallSteps() > 0)) continue;
+    other.body->whole().refit();
+    m_finder->lookAt(own(), other.body->whole());
   }
-  if (!m_finder->finish()) sayIncomplete();
+  return m_finder->finish();
+}
+
+bool CollisionAudit::lookAtSmallSteps(double time) {
+  const int count = smallSteps();
+  bool isComplete = true;
+  for (int k = 0; k < count; ++k) {
+    m_own->takeSmallStep(k);
+    for (const Other& other : m_others) other.body->takeSmallStep(k);
+    m_lookBegin = m_time + (time - m_time) * k / count;
+    m_lookEnd = m_time + (time - m_time) * (k + 1) / count;
+    if (m_own->smallSteps() > 0) isComplete = lookAtSmallStep() && isComplete;
+  }
+  m_own->endSmallSteps();
+  for (const Other& other : m_others) other.body->endSmallSteps();
+  m_lookEnd = time;
+  return isComplete;
+}
+
+bool CollisionAudit::lookAtSmallStep() {
+  m_own->small().refit();
+  m_smallFinder->begin(mostCandidates());
+  if (m_parameters.self) m_smallFinder->lookAt(m_own->small());
+  for (const Other& other : m_others) {
+    if (other.isNew || other.body->smallSteps() == 0) continue;
+    other.body->small().refit();
+    m_smallFinder->lookAt(m_own->small(), other.body->small());
+  }
+  return m_smallFinder->finish();
+}
+
+int CollisionAudit::smallSteps() const {
+  int most = m_own->smallSteps();
+  for (const Other& other : m_others) most = std::max(most, other.body->smallSteps());
+  return most;
 }
 
 long long CollisionAudit::mostCandidates() const {
@@ -196,16 +251,16 @@ bool CollisionAudit::followOthers() {
 }
 
 bool CollisionAudit::follow(const btSoftBody& body) {
-  const auto isIt = [&](const Other& other) { return other.faces->body() == &body; };
+  const auto isIt = [&](const Other& other) { return other.body->body() == &body; };
   auto found = std::find_if(m_others.begin(), m_others.end(), isIt);
   if (found == m_others.end()) {
-    m_others.push_back({std::make_unique<SweptFaces>()});
+    m_others.push_back({std::make_unique<AuditedBody>()});
     found = m_others.end() - 1;
   }
   found->isInWorld = true;
-  found->isNew = !found->faces->fits(body);
-  if (!found->isNew) return found->faces->advance(body);
-  found->faces->build(body);
+  found->isNew = !found->body->fits(body);
+  if (!found->isNew) return found->body->advance();
+  found->body->build(body);
   return false;
 }
 
@@ -252,29 +307,31 @@ void CollisionAudit::transferState(StateArchive& archive) {
   m_own->transferState(archive, m_cloth->body());
   transferOthers(archive);
   m_finder->transferState(archive, m_cloth->world().softBodies());
+  m_smallFinder->transferState(archive, m_cloth->world().softBodies());
   if (archive.isRestoring()) m_passages.clear();
 }
 
 void CollisionAudit::transferOthers(StateArchive& archive) {
   const btAlignedObjectArray<btSoftBody*>& bodies = m_cloth->world().softBodies();
   const auto numberOf = [&](const Other& other) {
-    return bodies.findLinearSearch(const_cast<btSoftBody*>(other.faces->body()));
+    return bodies.findLinearSearch(const_cast<btSoftBody*>(other.body->body()));
   };
   // A body that has left the world is forgotten in the next step.
   const auto isThere = [&](const Other& other) { return numberOf(other) < bodies.size(); };
-  std::vector<Other> others;
+  std::vector<Other*> saved;
   for (Other& other : m_others) {
-    if (archive.isSaving() && isThere(other))
-      others.push_back({std::make_unique<SweptFaces>(*other.faces), true, other.isNew});
+    if (archive.isSaving() && isThere(other)) saved.push_back(&other);
   }
-  others.resize(archive.count(others.size()));
-  for (Other& other : others) {
-    if (!other.faces) other.faces = std::make_unique<SweptFaces>();
+  std::vector<Other> read;
+  const std::size_t count = archive.count(saved.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!archive.isSaving()) read.push_back({std::make_unique<AuditedBody>()});
+    Other& other = archive.isSaving() ? *saved[i] : read[i];
     const int number = archive.place(archive.isSaving() ? numberOf(other) : 0, bodies.size(), "soft body of an audit");
     archive.value(other.isNew);
-    other.faces->transferState(archive, *bodies[number]);
+    other.body->transferState(archive, *bodies[number]);
   }
-  if (archive.isRestoring()) m_others = std::move(others);
+  if (archive.isRestoring()) m_others = std::move(read);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -16,7 +16,7 @@ class btSoftBody;
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-class SweptFaces;
+class AuditedBody;
 class PassageFinder;
 
 /// Something that went through something else in spite of Bullet.
@@ -49,10 +49,12 @@ struct AuditTotals {
 /// Counts what Bullet lets through: after each substep, the vertices and faces and the edges of this cloth's faces,
 /// and of it and the other soft bodies of the world, that passed through each other. It changes nothing.
 ///
-/// Nodes move in straight lines from the end of one substep to the end of the next. A pair passes when it meets on the
-/// way (collision::ContinuousCheck) and ends on the other side; one that touches and returns does not. A vertex of a
-/// face is no pair with it, nor are two edges with a common vertex. Edges are those of faces, each once; links do not
-/// count. A face with a node that is not finite is left out while it is so.
+/// Nodes move in straight lines from the end of one substep to the end of the next; between bodies that ClothSolver
+/// steps, and within one, from the end of one small step to the end of the next, since in a substep they may swing out
+/// and back. Of two such bodies the one that has fewer small steps stands still for the rest, as the guard takes it. A
+/// pair passes when it meets on the way (collision::ContinuousCheck) and ends on the other side; one that touches and
+/// returns does not. A vertex of a face is no pair with it, nor are two edges with a common vertex. Edges are those of
+/// faces, each once; links do not count. A face with a node that is not finite is left out while it is so.
 ///
 /// A substep is looked at in the next one, before Bullet predicts; look() does it at once. The first substep after
 /// the effect was added, after reset(), and the one in which a body was cut, or was out of the world, is not looked at.
@@ -66,9 +68,10 @@ class WETCLOTH_EXPORT CollisionAudit : public Effect {
     bool others = true;  ///< pairs of this cloth and any other soft body of the world that has faces
     /// None misses a passage. Tier::exact has no false alarms either, where something just clears an edge.
     collision::Tier tier = collision::Tier::fast;
-    /// When the swept boxes of more pairs than this for each face of the cloth overlap in a substep, the rest of it is
-    /// left out. A cloth that swings has about 12, one shaken by several edges' length a substep about 80, an exploded
-    /// one all there are, which takes the square of its size. The first time, the world's log says so.
+    /// When the swept boxes of more pairs than this for each face of the cloth overlap in a substep, or in a small step
+    /// where these are looked at, the rest of it is left out. A cloth that swings has about 12, one shaken by several
+    /// edges' length a substep about 80, an exploded one all there are, which takes the square of its size. The first
+    /// time, the world's log says so.
     int mostPairsPerFace = 500;
     /// Called for each passage, in the step, in no order of time within a substep; or null. It must not change bodies.
     std::function<void(const Passage&)> onPassage = nullptr;
@@ -116,7 +119,12 @@ class WETCLOTH_EXPORT CollisionAudit : public Effect {
 
   std::unique_ptr<PassageFinder> makeFinder(collision::Tier tier);
   void restart();
+  void observe();
   void lookUntil(double time);
+  bool lookAtWhole();
+  bool lookAtSmallSteps(double time);
+  bool lookAtSmallStep();
+  int smallSteps() const;
   long long mostCandidates() const;
   void sayIncomplete();
   bool followOthers();
@@ -128,14 +136,16 @@ class WETCLOTH_EXPORT CollisionAudit : public Effect {
   AuditTotals m_totals;
   std::vector<Passage> m_passages;
   WetCloth* m_cloth = nullptr;
-  std::unique_ptr<SweptFaces> m_own;
+  std::unique_ptr<AuditedBody> m_own;
   std::vector<Other> m_others;  // of which the pairs with this cloth are ours to count
   std::unique_ptr<PassageFinder> m_finder;
-  bool m_isFollowing = false;  // the last positions and their time are known
-  bool m_isPending = false;    // a substep has begun since the last look
-  double m_time = 0;           // of the last positions [s]
-  double m_dt = 0;             // of the pending substep [s]
-  double m_lookEnd = 0;        // of the time that is looked at [s]
+  std::unique_ptr<PassageFinder> m_smallFinder;  // of what passes in small steps
+  bool m_isFollowing = false;                    // the last positions and their time are known
+  bool m_isPending = false;                      // a substep has begun since the last look
+  double m_time = 0;                             // of the last positions [s]
+  double m_dt = 0;                               // of the pending substep [s]
+  double m_lookBegin = 0;                        // of the time that is looked at [s]
+  double m_lookEnd = 0;                          // [s]
 };
 
 }  // namespace WETCLOTH_PRECISION

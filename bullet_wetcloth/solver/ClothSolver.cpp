@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/solver/ClothGuard.h"
 #include "bullet_wetcloth/solver/PackedCloth.h"
 #include "bullet_wetcloth/solver/SmallStepCount.h"
+#include "bullet_wetcloth/solver/SmallStepViewers.h"
 #include "bullet_wetcloth/solver/WhyNotTaken.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
@@ -102,7 +103,7 @@ class ClothSolver::Impl {
   ClothGuard guard;
   std::vector<PackedCloth*> guarded;            // in this step
   std::vector<ClothGuard::Cloth> guardedNodes;  // theirs
-  SmallStepCallback callback;
+  SmallStepViewers viewers;
   std::function<void(const std::string&)> logger = [](const std::string& message) { std::clog << message << '\n'; };
 };
 
@@ -178,12 +179,14 @@ PackedNodes* ClothSolver::packedNodes(const btSoftBody& body) {
 ClothSolver::GuardTotals ClothSolver::guardTotals() const { return m_impl->guard.totals(); }
 void ClothSolver::resetGuardTotals() { m_impl->guard.resetTotals(); }
 
-void ClothSolver::setSmallStepCallback(SmallStepCallback callback) { m_impl->callback = std::move(callback); }
+void ClothSolver::setSmallStepCallback(SmallStepCallback callback) { m_impl->viewers.setCallback(std::move(callback)); }
+void ClothSolver::addObserver(const std::shared_ptr<SmallStepObserver>& observer) { m_impl->viewers.add(observer); }
 void ClothSolver::setLog(std::function<void(const std::string&)> log) { m_impl->logger = std::move(log); }
 
 // Called at the start of every step. Bodies that left the world may have been deleted: only addresses are compared.
 void ClothSolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool forceUpdate) {
   btDefaultSoftBodySolver::optimize(bodies, forceUpdate);
+  m_impl->viewers.forgetTheDead();
   std::vector<std::unique_ptr<Impl::Taken>>& cloths = m_impl->before;
   cloths.swap(m_impl->cloths);
   for (int k = 0; k < bodies.size(); ++k) {
@@ -259,7 +262,7 @@ void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& bo
     }
     guard.hold();
     for (PackedCloth* const cloth : guarded) {
-      if (k < cloth->smallSteps()) cloth->show(callback, k);
+      if (k < cloth->smallSteps()) cloth->show(viewers, k);
     }
   }
   for (PackedCloth* const cloth : guarded) cloth->endSmallSteps();
@@ -274,7 +277,7 @@ void ClothSolver::solveConstraints(btScalar) {
     if (!taken) {
       body.solveConstraints();
     } else if (!isGuarded) {
-      taken->cloth.solve(m_impl->parameters, m_impl->callback);
+      taken->cloth.solve(m_impl->parameters, m_impl->viewers);
     }
   }
   if (isGuarded) m_impl->solveGuarded(m_softBodySet);

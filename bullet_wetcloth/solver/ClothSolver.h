@@ -87,6 +87,13 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   };
   /// Called after each small step. It changes nothing.
   using SmallStepCallback = std::function<void(const SmallStepView&)>;
+  /// The same for what lives as long as it likes: parts of the library, which leave the callback to the application.
+  class SmallStepObserver {
+   public:
+    virtual ~SmallStepObserver() = default;
+    /// After the application's callback. It changes nothing, and does not throw.
+    virtual void afterSmallStep(const SmallStepView& view) = 0;
+  };
 
   /// Throws std::invalid_argument naming the field and the value.
   explicit ClothSolver(const Parameters& parameters);
@@ -120,6 +127,8 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
 
   /// Sees the nodes' places after each small step; an empty one sees nothing.
   void setSmallStepCallback(SmallStepCallback callback);
+  /// Between steps. It is called for as long as it lives; adding it again does nothing.
+  void addObserver(const std::shared_ptr<SmallStepObserver>& observer);
   /// Takes messages, of a cloth that is not finite or whose links need more small steps. The default writes to
   /// std::clog; an empty function silences them.
   void setLog(std::function<void(const std::string&)> log);

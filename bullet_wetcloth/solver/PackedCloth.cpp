@@ -212,11 +212,11 @@ btScalar PackedCloth::rounding() const {
   return farthest * std::numeric_limits<btScalar>::epsilon() / 2;
 }
 
-void PackedCloth::solve(const ClothSolver::Parameters& parameters, const ClothSolver::SmallStepCallback& callback) {
+void PackedCloth::solve(const ClothSolver::Parameters& parameters, const SmallStepViewers& viewers) {
   if (!beginSmallSteps(parameters)) return;
   for (int k = 0; k < m_count; ++k) {
     takeSmallStep(k);
-    show(callback, k);
+    show(viewers, k);
   }
   endSmallSteps();
 }
@@ -238,15 +238,15 @@ bool PackedCloth::beginSmallSteps(const ClothSolver::Parameters& parameters) {
   return true;
 }
 
-void PackedCloth::show(const ClothSolver::SmallStepCallback& callback, int index) {
-  if (!callback) return;
+void PackedCloth::show(const SmallStepViewers& viewers, int index) {
+  if (viewers.empty()) return;
   const LinkedNodes nodes = linked();
-  callback({m_body,
-            index,
-            m_step.h,
-            m_nodes.slots(),
-            {nodes.position[0], nodes.position[1], nodes.position[2]},
-            m_nodes.origin()});
+  viewers.show({m_body,
+                index,
+                m_step.h,
+                m_nodes.slots(),
+                {nodes.position[0], nodes.position[1], nodes.position[2]},
+                m_nodes.origin()});
 }
 
 // What holds a cloth to rigid bodies comes between; without it a tile's nodes are moved and linked in one go, while

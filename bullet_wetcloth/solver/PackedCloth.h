@@ -12,6 +12,7 @@
 #include "bullet_wetcloth/solver/PinnedWays.h"
 #include "bullet_wetcloth/solver/RigidDetection.h"
 #include "bullet_wetcloth/solver/SmallStepCount.h"
+#include "bullet_wetcloth/solver/SmallStepViewers.h"
 #include "bullet_wetcloth/solver/Tethers.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
@@ -61,12 +62,12 @@ class PackedCloth {
   /// Finds the contacts with a rigid body or a link of a multibody.
   void collide(const btCollisionObjectWrapper& object);
   /// All small steps.
-  void solve(const ClothSolver::Parameters& parameters, const ClothSolver::SmallStepCallback& callback);
+  void solve(const ClothSolver::Parameters& parameters, const SmallStepViewers& viewers);
   /// The same, one by one. False: there are none in this step.
   bool beginSmallSteps(const ClothSolver::Parameters& parameters);
   int smallSteps() const { return m_count; }
   void takeSmallStep(int index);
-  void show(const ClothSolver::SmallStepCallback& callback, int index);
+  void show(const SmallStepViewers& viewers, int index);
   void endSmallSteps();
   /// What a guard needs of it between them.
   ClothGuard::Cloth guarded();
