@@ -128,7 +128,7 @@ TEST(ClothGuardBadStarts, APinThatIsPutThroughAClothIsToldOrHoldsIt) {
     EXPECT_TRUE(scene.passages() == 0 || scene.totals().forced + scene.totals().meeting > 0) << way;
     EXPECT_TRUE(isFinite(*drum.drum)) << way;
     EXPECT_TRUE(isFinite(*drum.small)) << way;
-    EXPECT_TRUE(way < -100 || scene.totals().halts == 0) << way;
+    EXPECT_TRUE(way < -1 || scene.totals().halts == 0) << way;  // further, the cloth may have to wait for the pin
   }
 }
 
