@@ -59,6 +59,15 @@ TEST(Audit, ASummaryHasALineOfIt) {
   EXPECT_NE(outcome.out.find("vertices through faces"), std::string::npos);
 }
 
+TEST(Audit, OfAGuardedSheetCountsNothing) {
+  Json scene = wrungSheet();
+  scene["solver"] = {{"guard", Json::object()}};
+  const Json audit = runScene(scene).at("audit");
+  EXPECT_EQ(audit.at("vertex_face"), 0);
+  EXPECT_EQ(audit.at("edge_edge"), 0);
+  EXPECT_EQ(audit.at("incomplete_substeps"), 0);
+}
+
 TEST(Audit, OnlyAPinnedEdgeCanBeTwisted) {
   Json scene = wrungSheet();
   scene["cloths"][0]["twist"]["edge"] = "left";

@@ -49,7 +49,7 @@ class Checkpoint : public testing::Test {
 // With every effect that the scenes have, with pins that move and turn, and in the worlds that they use.
 TEST_F(Checkpoint, AResumedRunEndsAsOneThatWasNot) {
   for (const char* name : {"hanging_towel", "towel_under_hose", "dip_and_lift", "towel_on_wet_floor", "audit_twist",
-                           "curtain_deformable", "wet_shirt_on_sphere"}) {
+                           "heap", "curtain_deformable", "wet_shirt_on_sphere"}) {
     SCOPED_TRACE(name);
     const std::string scene = sceneFile(name);
     const std::vector<std::string> length = {"--duration", "0.4"};
