@@ -24,6 +24,9 @@ constexpr btScalar kPartingOfSlack = btScalar(0.1);  // in a small step
 constexpr btScalar kUsedSlack = btScalar(0.9);       // the rest is for rounding
 constexpr int kMostLooks = 6;                        // in a small step
 
+// Of a number near 1. In float64 more than double rounds, in which gaps near it are computed.
+constexpr btScalar kRoundingAtOne = std::max(std::numeric_limits<btScalar>::epsilon(), btScalar(1e-12));
+
 // Whether all places along one axis are where they were expected.
 struct OnTheWay {
   const btScalar* place;
@@ -94,7 +97,7 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
       }
     }
   }
-  m_rounding = farthest * std::numeric_limits<btScalar>::epsilon();
+  m_rounding = farthest * kRoundingAtOne;
   m_contact.rounding = m_rounding;
   m_pairs.clear();
   m_ahead = parameters.every;

@@ -22,10 +22,12 @@ constexpr btScalar kReserve = btScalar(0.1);  // of the thickness, that is not u
 constexpr btScalar kUsed = btScalar(0.5);     // of what is left of it, in a small step
 constexpr btScalar kParts = btScalar(0.05);   // of the thickness that is missing, in a small step
 // In roundings of a place. A measured gap is wrong by less than 14 of them: see docs/guard.md.
-constexpr btScalar kMeeting = 1;  // a gap that is computed in double has to be more
-constexpr btScalar kSmall = 32;   // a gap does not shrink below, and is computed in double there
-constexpr btScalar kNoise = 3;    // what moving two parts as one may do to a gap
+constexpr btScalar kApart = 1;  // a gap that is computed in double has to be more at the end of a small step
+constexpr btScalar kMeeting = btScalar(0.5);  // and when a plane is made
+constexpr btScalar kSmall = 32;               // a gap does not shrink below, and is computed in double there
+constexpr btScalar kNoise = 3;                // what moving two parts as one may do to a gap
 constexpr btScalar kWorthParting = 128;
+constexpr double kExact = 0.99;    // of a distance, that a gap along its direction has
 constexpr double kOfTheWay = 0.9;  // to the least gap, when a group is slowed
 
 void placesOf(const GuardPair& pair, const std::vector<GuardNodes::Place>& from, double (&places)[4][3]) {
@@ -140,7 +142,13 @@ bool GuardPairs::addPlane(const GuardNodes& nodes, const GuardPair& pair, int st
   double ends[4][3];
   placesOf(pair, nodes.from, places);
   placesOf(pair, nodes.to, ends);
-  const Separation separation = first == 1 ? separationOfVertexAndFace(places) : separationOfEdges(places);
+  Separation separation = first == 1 ? separationOfVertexAndFace(places) : separationOfEdges(places);
+  int low = 0, high = 0;
+  const double found = gapAlong(separation.normal, places, first, low, high);
+  if (first == 2 && found < kExact * separation.distance) {
+    const Separation atAnEnd = separationOfEdgesAtAnEnd(places);
+    if (gapAlong(atAnEnd.normal, places, first, low, high) > found) separation = atAnEnd;
+  }
   GuardPlanes::Plane plane = {pair, {}, {}, 0, static_cast<btScalar>(separation.distance)};
   double normal[3];
   for (int k = 0; k < 3; ++k) {
@@ -148,7 +156,6 @@ bool GuardPairs::addPlane(const GuardNodes& nodes, const GuardPair& pair, int st
     normal[k] = static_cast<double>(plane.normal[k]);
   }
   for (int k = 0; k < 4; ++k) plane.weights[k] = static_cast<btScalar>(separation.weights[k]);
-  int low = 0, high = 0;
   const double gap = gapAlong(normal, places, first, low, high);
   plane.gap = static_cast<btScalar>(gap);
   if (!(plane.gap > kMeeting * m_contact.rounding)) return false;
@@ -197,7 +204,7 @@ bool GuardPairs::isApart(const GuardPlanes& planes, std::size_t plane, const Gua
   const btVector3 n = planes.normal(plane);
   const double normal[3] = {static_cast<double>(n.x()), static_cast<double>(n.y()), static_cast<double>(n.z())};
   int low = 0, high = 0;
-  return gapAlong(normal, places, planes.first(), low, high) > static_cast<double>(kMeeting * m_contact.rounding);
+  return gapAlong(normal, places, planes.first(), low, high) > static_cast<double>(kApart * m_contact.rounding);
 }
 
 bool GuardPairs::settle(const GuardNodes& nodes) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
@@ -33,6 +34,18 @@ void finish(const double (&nodes)[4][3], Separation& result) {
   result.distance = std::sqrt(dot(way, way));
   const double scale = result.distance > 0 ? 1 / result.distance : 0;
   for (int k = 0; k < 3; ++k) result.normal[k] = way[k] * scale;
+}
+
+// Where the nearest places are inside both parts, the way between them is across both: near each other, that is known
+// to more digits than the way itself.
+void turnAcross(const Point& u, const Point& v, Separation& result) {
+  Point across;
+  cross(u, v, across);
+  const double length = std::sqrt(dot(across, across));
+  constexpr double kAlong = 1e-3;  // sine of the angle between nearly parallel sides
+  if (!(length > kAlong * std::sqrt(dot(u, u) * dot(v, v)))) return;
+  const double scale = dot(across, result.normal) < 0 ? -1 / length : 1 / length;
+  for (int k = 0; k < 3; ++k) result.normal[k] = across[k] * scale;
 }
 
 // Where on the segment from a to b the origin is nearest, as a share of it.
@@ -66,6 +79,7 @@ Separation separationOfVertexAndFace(const double (&nodes)[4][3]) {
     if (least >= 0) {
       for (int k = 0; k < 3; ++k) result.weights[k + 1] = -weight[k];
       finish(nodes, result);
+      turnAcross(u, v, result);
       return result;
     }
   }
@@ -105,7 +119,27 @@ Separation separationOfEdges(const double (&nodes)[4][3]) {
   t = vv > 0 ? inUnit((uv * s + vb) / vv) : 0;
   Separation result = {{0, 0, 0}, {1 - s, s, t - 1, -t}, 0};
   finish(nodes, result);
+  if (s > 0 && s < 1 && t > 0 && t < 1) turnAcross(u, v, result);
   return result;
+}
+
+Separation separationOfEdgesAtAnEnd(const double (&nodes)[4][3]) {
+  Separation nearest = {{0, 0, 0}, {0, 0, 0, 0}, std::numeric_limits<double>::infinity()};
+  for (int end = 0; end < 4; ++end) {
+    const int first = end < 2 ? 2 : 0;  // of the other edge
+    Point a, b;
+    subtract(nodes[first], nodes[end], a);
+    subtract(nodes[first + 1], nodes[end], b);
+    const double share = nearestOnSegment(a, b);
+    const double sign = end < 2 ? 1 : -1;
+    Separation candidate = {{0, 0, 0}, {0, 0, 0, 0}, 0};
+    candidate.weights[end] = sign;
+    candidate.weights[first] = -sign * (1 - share);
+    candidate.weights[first + 1] = -sign * share;
+    finish(nodes, candidate);
+    if (candidate.distance < nearest.distance) nearest = candidate;
+  }
+  return nearest;
 }
 
 double gapAlong(const double (&normal)[3], const double (&nodes)[4][3], int first, int& low, int& high) {
