@@ -20,7 +20,7 @@ void SmallStepRecord::afterSmallStep(const ClothSolver::SmallStepView& view) {
   m_places.resize(begin + 3 * m_nodes);
   btScalar* place = m_places.data() + begin;
   for (std::size_t node = 0; node < m_nodes; ++node) {
-    for (int axis = 0; axis < 3; ++axis) *place++ = view.x[axis][view.slots[node]];
+    for (const btScalar* const axis : view.x) *place++ = axis[view.slots[node]];
   }
 }
 

@@ -19,6 +19,16 @@ inline namespace WETCLOTH_PRECISION {
 class PackedNodes;
 class StateArchive;
 
+/// What keeps cloths from passing through themselves and each other: docs/guard.md.
+struct ClothGuardParameters {
+  /// Nearer than that layers do not approach, and slowly part [m], >= 0; at most half of the mean edge counts.
+  double thickness = 0.002;
+  bool self = true;       ///< a cloth and itself
+  bool others = true;     ///< the cloths that the solver has taken, among each other
+  int every = 10;         ///< for so many small steps ahead nodes are expected on their way, [1, 100]
+  double friction = 0.3;  ///< between layers, coefficient, >= 0
+};
+
 /// Steps cloths faster and stiffer than Bullet does, behind Bullet's own seam: the last argument of its world.
 ///
 ///     wetcloth::ClothSolver solver;
@@ -32,15 +42,8 @@ class StateArchive;
 /// It outlives the world. Bodies may be added, removed, cut and changed between steps.
 class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
  public:
-  /// What keeps cloths from passing through themselves and each other: docs/guard.md.
-  struct Guard {
-    /// Nearer than that layers do not approach, and slowly part [m], >= 0; at most half of the mean edge counts.
-    double thickness = 0.002;
-    bool self = true;       ///< a cloth and itself
-    bool others = true;     ///< the cloths that the solver has taken, among each other
-    int every = 10;         ///< for so many small steps ahead nodes are expected on their way, [1, 100]
-    double friction = 0.3;  ///< between layers, coefficient, >= 0
-  };
+  /// What keeps cloths from passing through themselves and each other.
+  using Guard = ClothGuardParameters;
   /// What the guard has done since the start, or since resetGuardTotals().
   struct GuardTotals {
     long long looks = 0;       ///< small steps in which it looked for what may meet

@@ -120,7 +120,7 @@ btVector3 ContactProjection::velocityOf(const Contact& contact) const {
   btVector3 velocity;
   for (int axis = 0; axis < 3; ++axis) {
     velocity[axis] = product(jacobian, contact.link->m_multiBody->getVelocityVector(), degrees);
-    jacobian += 2 * degrees;
+    jacobian += 2 * toSize(degrees);
   }
   return velocity;
 }
@@ -131,7 +131,7 @@ void ContactProjection::push(const Contact& contact, const btVector3& impulse) {
   const btScalar* response = m_jacobians.data() + contact.firstJacobian + degrees;
   for (int axis = 0; axis < 3; ++axis) {
     contact.link->m_multiBody->applyDeltaVeeMultiDof(response, impulse[axis]);
-    response += 2 * degrees;
+    response += 2 * toSize(degrees);
   }
 }
 

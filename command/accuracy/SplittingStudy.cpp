@@ -52,7 +52,7 @@ Vector stripAreas() {
 /// A number for each node and each node. Of our own: Eigen's templates took longer to compile than the rest of the
 /// study.
 struct Matrix {
-  Vector entries = Vector(stripNodes * stripNodes);
+  Vector entries = Vector(static_cast<std::size_t>(stripNodes) * static_cast<std::size_t>(stripNodes));
 
   double* operator[](int row) { return &entries[static_cast<std::size_t>(row) * stripNodes]; }
   const double* operator[](int row) const { return &entries[static_cast<std::size_t>(row) * stripNodes]; }

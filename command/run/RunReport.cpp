@@ -178,7 +178,7 @@ std::string RunReport::solverLine() const {
             " small steps in which all stood still\n";
   }
   for (const auto& [cloth, reason] : m_solverReasons) {
-    line += "               Bullet's own steps " + cloth + ": " + reason + "\n";
+    line.append("               Bullet's own steps ").append(cloth).append(": ").append(reason).append("\n");
   }
   return line;
 }
