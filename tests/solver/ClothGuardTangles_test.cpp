@@ -14,15 +14,7 @@ namespace {
 
 BodyBuilder shuffledSheet(int n, double side, const btVector3& place, std::mt19937& random) {
   const Triangles mesh = Triangles::of(levelSheet(n, side, place));
-  std::vector<int> numbers(mesh.places.size());
-  for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = int(k);
-  std::shuffle(numbers.begin(), numbers.end(), random);
-  Triangles other = mesh;
-  for (std::size_t k = 0; k < numbers.size(); ++k) other.places[std::size_t(numbers[k])] = mesh.places[k];
-  for (auto& face : other.faces) {
-    for (int& node : face) node = numbers[std::size_t(node)];
-  }
-  return other.builder();
+  return mesh.shuffled(random).builder();
 }
 
 class Tangle {

@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <random>
 #include <set>
 #include <utility>
 #include <vector>
@@ -146,6 +147,18 @@ struct Triangles {
       }
     }
     return mesh;
+  }
+  /// The same, with its nodes numbered in another order, in which there are no rows.
+  Triangles shuffled(std::mt19937& random) const {
+    std::vector<int> numbers(places.size());
+    for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = int(k);
+    std::shuffle(numbers.begin(), numbers.end(), random);
+    Triangles other = *this;
+    for (std::size_t k = 0; k < numbers.size(); ++k) other.places[std::size_t(numbers[k])] = places[k];
+    for (auto& face : other.faces) {
+      for (int& node : face) node = numbers[std::size_t(node)];
+    }
+    return other;
   }
   BodyBuilder builder() const { return linkedTriangles(places, faces); }
 };

@@ -100,17 +100,9 @@ class Tangle {
 };
 
 BodyBuilder shuffledSheet(int n, const btVector3& place) {
-  Triangles mesh = Triangles::of(levelSheet(n, 0.4, place));
+  const Triangles mesh = Triangles::of(levelSheet(n, 0.4, place));
   std::mt19937 random(5);
-  std::vector<int> numbers(mesh.places.size());
-  for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = int(k);
-  std::shuffle(numbers.begin(), numbers.end(), random);
-  Triangles other = mesh;
-  for (std::size_t k = 0; k < numbers.size(); ++k) other.places[std::size_t(numbers[k])] = mesh.places[k];
-  for (auto& face : other.faces) {
-    for (int& node : face) node = numbers[std::size_t(node)];
-  }
-  return other.builder();
+  return mesh.shuffled(random).builder();
 }
 
 // A crumpled sheet: folds that are sharp enough to meet.
