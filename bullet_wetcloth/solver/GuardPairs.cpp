@@ -18,6 +18,7 @@ namespace {
 constexpr int kPasses = 4;
 constexpr int kSlowings = 100;                // of what still violates a plane
 constexpr int kSlowingsInPart = 4;            // after these, groups go as one
+constexpr btScalar kStill = btScalar(1.0 / 256);  // of the thickness: what approaches by less needs no other pass
 constexpr btScalar kReserve = btScalar(0.1);  // of the thickness, that is not used up at once
 constexpr btScalar kUsed = btScalar(0.5);     // of what is left of it, in a small step
 constexpr btScalar kParts = btScalar(0.05);   // of the thickness that is missing, in a small step
@@ -260,14 +261,14 @@ void GuardPairs::part(const GuardPlanes& planes, GuardNodes& nodes) const {
   }
 }
 
-// Returns whether no part had left its side before its turn.
+// Returns whether, before its turn, no part had left its side nor approached another within the thickness.
 bool GuardPairs::pass(const GuardPlanes& planes, GuardNodes& nodes) const {
   bool isClear = true;
   for (std::size_t begin = 0; begin < planes.size(); begin += GuardPlanes::kAtOnce) {
     const GuardPlanes::Measure measure = planes.measure(begin, nodes.to);
     for (std::size_t k = 0; k < std::min(GuardPlanes::kAtOnce, planes.size() - begin); ++k) {
       const std::size_t plane = begin + k;
-      if (measure.apart[k] < std::min(planes.apart(plane), reach())) keepApart(planes, plane, nodes);
+      if (measure.apart[k] < reach() && keepApart(planes, plane, nodes) > kStill * reach()) isClear = false;
       if (!isViolated(planes, plane, measure.gap[k])) continue;
       isClear = false;
       keepSides(planes, plane, nodes);
@@ -276,11 +277,13 @@ bool GuardPairs::pass(const GuardPlanes& planes, GuardNodes& nodes) const {
   return isClear;
 }
 
-// Within the thickness the two places do not come nearer, and friction slows how they slide.
-void GuardPairs::keepApart(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const {
-  const btScalar missing = std::min(planes.apart(plane), reach()) - planes.nearest(plane, nodes.to).apart;
+// Within the thickness the two places do not come nearer, but for what other pairs that part do to them, and friction
+// slows how they slide. Returns by how much they would have come nearer [m].
+btScalar GuardPairs::keepApart(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const {
+  const btScalar wanted = planes.apart(plane) + planes.nearest(plane, nodes.aside).apart;
+  const btScalar missing = std::min(wanted, reach()) - planes.nearest(plane, nodes.to).apart;
   const btScalar yield = yieldOf(planes, plane, nodes);
-  if (!(missing > 0) || !(yield > 0)) return;
+  if (!(missing > 0) || !(yield > 0)) return 0;
   const btVector3 normal = planes.normal(plane);
   btVector3 slide(0, 0, 0);
   for (int k = 0; k < 4; ++k) {
@@ -298,6 +301,7 @@ void GuardPairs::keepApart(const GuardPlanes& planes, std::size_t plane, GuardNo
     const std::size_t i = toSize(planes.node(plane, k));
     shift(nodes.to[i], move, planes.weight(plane, k) * nodes.inverseMass[i] / yield);
   }
+  return missing;
 }
 
 // Moves the two nodes that are nearest to the other side.

@@ -60,7 +60,7 @@ class GuardPairs {
   bool isApart(const GuardPlanes& planes, std::size_t plane, const GuardNodes& nodes) const;
   void part(const GuardPlanes& planes, GuardNodes& nodes) const;
   bool pass(const GuardPlanes& planes, GuardNodes& nodes) const;
-  void keepApart(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const;
+  btScalar keepApart(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const;
   void keepSides(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const;
   bool slow(GuardNodes& nodes, bool asOne);
 
