@@ -14,15 +14,21 @@ inline namespace WETCLOTH_PRECISION {
 namespace {
 
 constexpr double kThicknessOfEdge = 0.5;  // of the mean edge, at most: neighbours are not to push each other
-// How far nodes may leave the way that is expected of them: by a share of it, within shares of the mean edge.
-constexpr btScalar kSlackOfWay = btScalar(0.1);
+// How far nodes may leave the way that is expected of them, on each axis: shares of the mean edge, of the way ahead,
+// and of what their present acceleration does in one small step and in those ahead.
 constexpr btScalar kLeastSlackOfEdge = btScalar(0.01);
-constexpr btScalar kMostSlackOfEdge = btScalar(0.05);
-constexpr btScalar kMostSlackFactor = 64;  // when what was held apart left what had been expected of it
+constexpr btScalar kMostSlackOfEdge = btScalar(0.1);
+constexpr btScalar kSlackOfWay = btScalar(0.02);
+constexpr btScalar kSlackOfAcceleration = 1;
+constexpr btScalar kSlackOfBend = btScalar(0.2);     // a parabola is 1/8 of it from its chord
+constexpr btScalar kMostBendOfEdge = btScalar(0.1);  // by which an end is expected off the present way
+constexpr btScalar kMostSlackFactor = 64;            // when what was held apart left what had been expected of it
+constexpr int kFewAhead = 2;                         // small steps
+constexpr double kRestless = 0.001;                  // share of nodes that may need more than the most slack
 constexpr btScalar kRoundingsOfSlack = 200;
-constexpr btScalar kPartingOfSlack = btScalar(0.1);  // in a small step
-constexpr btScalar kUsedSlack = btScalar(0.9);       // the rest is for rounding
-constexpr int kMostLooks = 6;                        // in a small step
+constexpr btScalar kPartingOfEdge = btScalar(0.001);  // in a small step
+constexpr btScalar kUsedSlack = btScalar(0.9);        // the rest is for rounding
+constexpr int kMostLooks = 6;                         // in a small step
 
 // Of a number near 1. In float64 more than double rounds, in which gaps near it are computed.
 constexpr btScalar kRoundingAtOne = std::max(std::numeric_limits<btScalar>::epsilon(), btScalar(1e-12));
@@ -32,44 +38,95 @@ struct OnTheWay {
   const btScalar* place;
   const btScalar* from;
   const btScalar* way;
+  const btScalar* slack;
   std::size_t count;
   btScalar age;
-  btScalar slack;
   bool& isOnIt;
 
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
-    Lanes farthest = everywhere<Lanes>(0);
+    const Lanes used = everywhere<Lanes>(kUsedSlack);
+    Lanes farthest = everywhere<Lanes>(-std::numeric_limits<btScalar>::infinity());
     for (std::size_t i = 0; i < count; i += kLaneCount<Lanes>) {
       const Lanes off =
           load<Lanes>(place + i) - (load<Lanes>(from + i) + load<Lanes>(way + i) * everywhere<Lanes>(age));
-      const Lanes away = absolute(off);
-      farthest = choose(away > farthest, away, farthest);
+      const Lanes beyond = absolute(off) - load<Lanes>(slack + i) * used;
+      farthest = choose(beyond <= farthest, farthest, beyond);
     }
     btScalar parts[kLaneCount<Lanes>];
     store(parts, farthest);
-    for (const btScalar part : parts) isOnIt = isOnIt && part <= slack;
+    for (const btScalar part : parts) isOnIt = isOnIt && part <= 0;
   }
 };
 
-// What leads from one place to the next, along one axis.
-struct Difference {
-  const btScalar* to;
-  const btScalar* from;
+// The way in a small step, on average over some of them, of what goes on with its present acceleration, and how far it
+// may leave this way. A node has gone from `before` to `last`, and from there to `place`.
+struct Expect {
+  const btScalar* place;
+  const btScalar* last;
+  const btScalar* before;
+  btScalar* from;
   btScalar* way;
+  btScalar* slack;  // the largest along all axes
+  std::size_t count;
+  btScalar steps;
+  WaySlack slackOf;
+
+  template <class Lanes>
+  WETCLOTH_INLINE void run() const {
+    const Lanes later = everywhere<Lanes>((steps - 1) / 2);
+    for (std::size_t i = 0; i < count; i += kLaneCount<Lanes>) {
+      const Lanes at = load<Lanes>(last + i);
+      const Lanes now = load<Lanes>(place + i) - at;
+      const Lanes acceleration = now - (at - load<Lanes>(before + i));
+      store(from + i, at);
+      store(way + i, now + slackOf.bent(acceleration * later));
+      const Lanes wanted = slackOf.of(now, acceleration);
+      const Lanes known = load<Lanes>(slack + i);
+      store(slack + i, choose(wanted > known, wanted, known));
+    }
+  }
+};
+
+// How many have the most slack.
+struct CountRestless {
+  const btScalar* slack;
+  std::size_t count;
+  btScalar most;
+  double& result;
+
+  template <class Lanes>
+  WETCLOTH_INLINE void run() const {
+    const Lanes limit = everywhere<Lanes>(most);
+    Lanes sum = everywhere<Lanes>(0);
+    for (std::size_t i = 0; i < count; i += kLaneCount<Lanes>) {
+      sum = sum + choose(load<Lanes>(slack + i) >= limit, everywhere<Lanes>(1), everywhere<Lanes>(0));
+    }
+    btScalar parts[kLaneCount<Lanes>];
+    store(parts, sum);
+    for (const btScalar part : parts) result += static_cast<double>(part);
+  }
+};
+
+// Where nodes were a small step ago, if they went with their present velocity.
+struct Before {
+  const btScalar* place;
+  const btScalar* velocity;
+  btScalar h;
+  btScalar* before;
   std::size_t count;
 
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
     for (std::size_t i = 0; i < count; i += kLaneCount<Lanes>) {
-      store(way + i, load<Lanes>(to + i) - load<Lanes>(from + i));
+      store(before + i, load<Lanes>(place + i) - load<Lanes>(velocity + i) * everywhere<Lanes>(h));
     }
   }
 };
 
 }  // namespace
 
-void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters) {
+void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters, int smallSteps) {
   m_cloths = cloths;
   m_parameters = parameters;
   m_kept.resize(cloths.size());
@@ -86,8 +143,17 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
   m_nodes.resize(count);
   m_edge = static_cast<btScalar>(edge);
   m_contact.thickness = static_cast<btScalar>(std::min(parameters.thickness, kThicknessOfEdge * edge));
+  m_contact.mostParting = kPartingOfEdge * m_edge;
   m_contact.friction = static_cast<btScalar>(parameters.friction);
-  keep();
+  for (std::size_t c = 0; c < cloths.size(); ++c) {
+    const MovingNodes& nodes = cloths[c].nodes;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      m_kept[c].last[axis].assign(nodes.position[axis], nodes.position[axis] + nodes.count);
+      m_kept[c].before[axis].resize(nodes.count);
+      runOnBestLanes(
+          Before{nodes.position[axis], nodes.velocity[axis], cloths[c].h, m_kept[c].before[axis].data(), nodes.count});
+    }
+  }
   btScalar farthest = 0;
   for (const Cloth& cloth : cloths) {
     const btVector3 away = cloth.origin - cloths.front().origin;
@@ -99,10 +165,13 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
   }
   m_rounding = farthest * kRoundingAtOne;
   m_contact.rounding = m_rounding;
+  m_leastSlack = std::max(kLeastSlackOfEdge * m_edge, kRoundingsOfSlack * m_rounding);
+  m_mostSlack = std::max(kMostSlackOfEdge * m_edge, m_leastSlack);
   m_pairs.clear();
-  m_ahead = parameters.every;
-  m_isFirst = true;
-  m_age = m_ahead;  // to be looked at
+  m_smallSteps = smallSteps;
+  m_taken = 0;
+  m_age = m_ahead = 0;  // to be looked at
+  forgetAside();
 }
 
 void ClothGuard::keep() {
@@ -115,37 +184,26 @@ void ClothGuard::keep() {
   }
 }
 
-// Nodes that are held back want to go far in each small step, and do not: they are expected to go on as they did. In
-// the first small step it is not known how they do.
 void ClothGuard::hold() {
-  if (m_age >= m_ahead) {
-    m_ahead = std::min(2 * m_ahead, m_parameters.every);
-    m_isFirst ? lookAlongPresentWays() : lookAlongLastWays();
-    m_isFirst = false;
-  } else {
-    ++m_age;
-  }
-  forgetAside();
+  m_age >= m_ahead ? look() : static_cast<void>(++m_age);
   if (!m_pairs.isEmpty()) {
     gather();
     m_pairs.part(m_nodes);
     scatter();
   }
   bool isHeld = false;
-  for (int k = 0; k < kMostLooks; ++k) {
+  for (int k = 0; k < kMostLooks && !isHeld; ++k) {
     enforce();
     isHeld = isWhereExpected() && m_pairs.settle(m_nodes);
     if (isHeld) break;
-    m_ahead = k == 0 ? std::max(1, std::min(m_ahead, m_age) / 2) : 1;
-    m_slackFactor = std::min(2 * m_slackFactor, kMostSlackFactor);
-    lookAlongPresentWays();
-    gather();
+    isWhereExpected() ? look() : lookAgain();
     isHeld = m_pairs.settle(m_nodes);  // where nodes are is what is expected now
-    if (isHeld) break;
+    m_slackFactor = std::min(2 * m_slackFactor, kMostSlackFactor);
   }
   m_slackFactor = 1;
   isHeld ? keepAside() : stopAll();
   keep();
+  ++m_taken;
 }
 
 void ClothGuard::enforce() {
@@ -172,6 +230,7 @@ void ClothGuard::keepAside() {
       for (std::size_t axis = 0; axis < 3; ++axis) cloth.nodes.predicted[axis][slot] += aside.at[axis];
     }
   }
+  forgetAside();
 }
 
 void ClothGuard::stopAll() {
@@ -183,7 +242,7 @@ void ClothGuard::stopAll() {
       for (std::size_t axis = 0; axis < 3; ++axis) nodes.position[axis][i] = m_kept[c].last[axis][i];
     }
   }
-  lookAlongPresentWays();
+  look();
   gather();
   if (m_pairs.settle(m_nodes)) return;
   m_totals.forced += m_pairs.release(m_nodes);
@@ -195,63 +254,130 @@ bool ClothGuard::isWhereExpected() const {
   for (std::size_t c = 0; c < m_cloths.size() && isOnIt; ++c) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       runOnBestLanes(OnTheWay{m_cloths[c].nodes.position[axis], m_kept[c].from[axis].data(), m_kept[c].way[axis].data(),
-                              m_cloths[c].nodes.count, static_cast<btScalar>(m_age), m_slack * kUsedSlack, isOnIt});
+                              m_kept[c].slack.data(), m_cloths[c].nodes.count, static_cast<btScalar>(m_age), isOnIt});
     }
   }
   return isOnIt;
 }
 
-void ClothGuard::lookAlongPresentWays() {
-  for (std::size_t c = 0; c < m_cloths.size(); ++c) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      m_kept[c].setWay(axis, m_cloths[c].nodes.position[axis], m_kept[c].last[axis].data());
-    }
-  }
-  look();
+// From the present small step on, for so many.
+WaySlack ClothGuard::slackFor(int steps) const {
+  const btScalar count = static_cast<btScalar>(steps);
+  return {m_slackFactor * m_leastSlack, m_slackFactor * m_mostSlack, kSlackOfWay * count,
+          kSlackOfAcceleration + kSlackOfBend * count * count, kMostBendOfEdge * m_edge / count};
 }
 
-void ClothGuard::lookAlongLastWays() {
-  for (Kept& kept : m_kept) {
-    for (std::size_t axis = 0; axis < 3; ++axis) kept.setWay(axis, kept.last[axis].data(), kept.before[axis].data());
-  }
-  look();
-}
-
-void ClothGuard::Kept::setWay(std::size_t axis, const btScalar* to, const btScalar* start) {
-  from[axis] = last[axis];
-  way[axis].resize(last[axis].size());
-  runOnBestLanes(Difference{to, start, way[axis].data(), way[axis].size()});
-}
-
+// All nodes, from now on. What moves restlessly is not expected far ahead.
 void ClothGuard::look() {
   ++m_totals.looks;
   m_age = 1;
-  btScalar longest = 0;
+  m_ahead = std::min(m_parameters.every, m_smallSteps - m_taken);
+  expectAll();
+  while (m_ahead > kFewAhead && areRestless()) {
+    m_ahead /= 2;
+    expectAll();
+  }
   for (std::size_t c = 0; c < m_cloths.size(); ++c) {
-    const Cloth& cloth = m_cloths[c];
-    const btVector3 away = cloth.origin - m_cloths.front().origin;
-    for (int node = 0; node < cloth.nodeCount; ++node) {
-      const std::size_t i = m_first[c] + toSize(node);
-      const std::size_t slot = toSize(cloth.slots[node]);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const btScalar way = m_kept[c].way[axis][slot];
-        m_nodes.from[i].at[axis] = m_kept[c].from[axis][slot] + away[static_cast<int>(axis)];
-        m_nodes.to[i].at[axis] = m_nodes.from[i].at[axis] + way;
-        longest = std::max(longest, std::fabs(way));
-      }
+    for (int node = 0; node < m_cloths[c].nodeCount; ++node) showExpected(c, node, 0);
+  }
+  m_pairs.clear();
+  m_candidates.clear();
+  m_tiles.findPairs(m_nodes, m_contact.thickness, {m_parameters.self, m_parameters.others}, m_candidates);
+  addPlanes();
+}
+
+void ClothGuard::expectAll() {
+  for (std::size_t c = 0; c < m_cloths.size(); ++c) {
+    Kept& kept = m_kept[c];
+    const MovingNodes& nodes = m_cloths[c].nodes;
+    kept.slack.assign(nodes.count, 0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      kept.from[axis].resize(nodes.count);
+      kept.way[axis].resize(nodes.count);
+      runOnBestLanes(Expect{nodes.position[axis], kept.last[axis].data(), kept.before[axis].data(),
+                            kept.from[axis].data(), kept.way[axis].data(), kept.slack.data(), nodes.count,
+                            static_cast<btScalar>(m_ahead), slackFor(m_ahead)});
     }
   }
-  m_slack = std::min(std::max(kSlackOfWay * static_cast<btScalar>(m_ahead) * longest, kLeastSlackOfEdge * m_edge),
-                     kMostSlackOfEdge * m_edge);
-  m_slack = std::min(m_slackFactor * m_slack, kMostSlackOfEdge * m_edge * std::max(btScalar(1), m_slackFactor / 16));
-  m_slack = std::max(m_slack, kRoundingsOfSlack * m_rounding);
+}
+
+bool ClothGuard::areRestless() const {
+  double restless = 0;
+  double all = 0;
+  for (const Kept& kept : m_kept) {
+    runOnBestLanes(CountRestless{kept.slack.data(), kept.slack.size(), m_slackFactor * m_mostSlack, restless});
+    all += static_cast<double>(kept.slack.size());
+  }
+  return restless > kRestless * all;
+}
+
+// The nodes that have left their way are expected on the one that they take now.
+void ClothGuard::lookAgain() {
+  ++m_totals.looks;
+  m_left.clear();
+  for (std::size_t c = 0; c < m_cloths.size(); ++c) {
+    for (int node = 0; node < m_cloths[c].nodeCount; ++node) {
+      if (isWhereExpected(c, node)) continue;
+      expectOnPresentWay(c, node);
+      m_left.push_back(static_cast<int>(m_first[c]) + node);
+    }
+  }
   m_candidates.clear();
-  m_contact.mostParting = kPartingOfSlack * m_slack;
-  const GuardTiles::Expectation expectation = {m_ahead, m_slack, m_contact.thickness};
-  m_tiles.findPairs(m_nodes, expectation, {m_parameters.self, m_parameters.others}, m_candidates);
+  m_tiles.findPairsAgain(m_nodes, m_left, m_candidates);
+  m_pairs.drop([&](int tileA, int tileB) { return m_tiles.areLookedAtAgain(tileA, tileB); });
+  addPlanes();
+}
+
+void ClothGuard::addPlanes() {
   m_totals.candidates += static_cast<long long>(m_candidates.size());
-  m_totals.meeting = std::max(m_totals.meeting, m_pairs.look(m_nodes, m_candidates, expectation, m_contact));
+  if (!m_candidates.isEmpty()) gather();
+  m_totals.meeting = std::max(m_totals.meeting, m_pairs.look(m_nodes, m_candidates, m_contact));
   m_totals.pairs += static_cast<long long>(m_pairs.size());
+}
+
+bool ClothGuard::isWhereExpected(std::size_t c, int node) const {
+  const Kept& kept = m_kept[c];
+  const std::size_t slot = toSize(m_cloths[c].slots[node]);
+  const btScalar age = static_cast<btScalar>(m_age);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const btScalar off = m_cloths[c].nodes.position[axis][slot] - (kept.from[axis][slot] + kept.way[axis][slot] * age);
+    if (!(std::fabs(off) <= kept.slack[slot] * kUsedSlack)) return false;
+  }
+  return true;
+}
+
+void ClothGuard::expectOnPresentWay(std::size_t c, int node) {
+  Kept& kept = m_kept[c];
+  const std::size_t slot = toSize(m_cloths[c].slots[node]);
+  const int steps = m_ahead - m_age + 1;
+  const WaySlack slackOf = slackFor(steps);
+  btScalar slack = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const btScalar last = kept.last[axis][slot];
+    const btScalar now = m_cloths[c].nodes.position[axis][slot] - last;
+    const btScalar acceleration = now - (last - kept.before[axis][slot]);
+    kept.way[axis][slot] = now + slackOf.bent(acceleration * (static_cast<btScalar>(steps - 1) / 2));
+    kept.from[axis][slot] = last - kept.way[axis][slot] * static_cast<btScalar>(m_age - 1);
+    slack = std::max(slack, slackOf.of(now, acceleration));
+  }
+  kept.slack[slot] = slack;
+  showExpected(c, node, m_age - 1);
+}
+
+// To those who find pairs.
+// @param age  in small steps since the last look at all, when it begins to go there
+void ClothGuard::showExpected(std::size_t c, int node, int age) {
+  const Cloth& cloth = m_cloths[c];
+  const Kept& kept = m_kept[c];
+  const btVector3 away = cloth.origin - m_cloths.front().origin;
+  const std::size_t slot = toSize(cloth.slots[node]);
+  GuardNodes::Place& start = m_nodes.start[m_first[c] + toSize(node)];
+  GuardNodes::Place& end = m_nodes.end[m_first[c] + toSize(node)];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    start.at[axis] = kept.last[axis][slot] + away[static_cast<int>(axis)];
+    end.at[axis] = start.at[axis] + kept.way[axis][slot] * static_cast<btScalar>(m_ahead - age);
+  }
+  start.at[3] = end.at[3] = kept.slack[slot];
 }
 
 void ClothGuard::gather() {

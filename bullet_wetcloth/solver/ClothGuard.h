@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Precision.h"
 #include "bullet_wetcloth/bullet/PackedNodes.h"
 #include "bullet_wetcloth/solver/ClothSolver.h"
+#include "bullet_wetcloth/solver/ExpectedWay.h"
 #include "bullet_wetcloth/solver/GuardMesh.h"
 #include "bullet_wetcloth/solver/GuardPairs.h"
 #include "bullet_wetcloth/solver/GuardTiles.h"
@@ -30,10 +31,12 @@ class ClothGuard {
     const int* slots;  ///< of its nodes
     int nodeCount;
     btVector3 origin;  ///< of its places, whole numbers [m]
+    btScalar h;        ///< of its small steps [s]
   };
 
   /// Before the first small step of a step: nodes stand where they were at its end, and pins where they come from.
-  void begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters);
+  /// @param smallSteps  how often hold() is called in this step
+  void begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters, int smallSteps);
   /// After each small step.
   void hold();
 
@@ -43,9 +46,15 @@ class ClothGuard {
  private:
   void keep();
   bool isWhereExpected() const;
-  void lookAlongPresentWays();
-  void lookAlongLastWays();
+  bool isWhereExpected(std::size_t cloth, int node) const;
   void look();
+  void expectAll();
+  bool areRestless() const;
+  void lookAgain();
+  void expectOnPresentWay(std::size_t cloth, int node);
+  void showExpected(std::size_t cloth, int node, int age);
+  WaySlack slackFor(int steps) const;
+  void addPlanes();
   void enforce();
   void forgetAside();
   void keepAside();
@@ -63,23 +72,25 @@ class ClothGuard {
   GuardNodes m_nodes;
   GuardCandidates m_candidates;
   // Of each cloth, by slot: where nodes were at the end of the last small step and of the one before, and where they
-  // were at the last look, and how far in a small step it expects them to go.
+  // were at the last look, how far in a small step it expects them to go, and how far from there they may be.
   struct Kept {
     PackedNodes::Lane before[3];
     PackedNodes::Lane last[3];
     PackedNodes::Lane from[3];
     PackedNodes::Lane way[3];
-
-    void setWay(std::size_t axis, const btScalar* to, const btScalar* start);
+    PackedNodes::Lane slack;
   };
   std::vector<Kept> m_kept;
-  int m_age = 0;    // small steps since the last look, that one included
-  int m_ahead = 1;  // for how many it was
-  bool m_isFirst = true;
+  std::vector<int> m_left;  // nodes that were not where they were expected
+  int m_smallSteps = 0;     // in this step
+  int m_taken = 0;          // of them
+  int m_age = 0;            // small steps since the last look at all nodes, that one included
+  int m_ahead = 0;          // for how many it was
   btScalar m_slackFactor = 1;
-  btScalar m_slack = 0;     // how far nodes may be from their way, on each axis [m]
-  btScalar m_edge = 0;      // the mean edge [m]
-  btScalar m_rounding = 0;  // of a place [m]
+  btScalar m_edge = 0;        // the mean edge [m]
+  btScalar m_rounding = 0;    // of a place [m]
+  btScalar m_leastSlack = 0;  // of a node [m]
+  btScalar m_mostSlack = 0;   // of a node, but for those that leave their way again and again [m]
 };
 
 }  // namespace WETCLOTH_PRECISION

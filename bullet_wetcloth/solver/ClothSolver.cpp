@@ -255,7 +255,7 @@ void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& bo
     count = std::max(count, taken->cloth.smallSteps());
   }
   if (guarded.empty()) return;
-  guard.begin(guardedNodes, *parameters.guard);
+  guard.begin(guardedNodes, *parameters.guard, count);
   for (int k = 0; k < count; ++k) {
     for (PackedCloth* const cloth : guarded) {
       if (k < cloth->smallSteps()) cloth->takeSmallStep(k);

@@ -171,6 +171,40 @@ void fillTiles(const btSoftBody& body, int* first, int* last, CellWriter& writer
   fillTiles(body, middle, last, writer, mesh);
 }
 
+// Calls action(node, tile) for the nodes of each tile; for some more than once.
+template <class Action>
+void forEachNodeOfTiles(const GuardMesh& mesh, const Action& action) {
+  constexpr int kSide = GuardMesh::kSide;
+  for (int tile = 0; tile < static_cast<int>(mesh.tiles.size()); ++tile) {
+    if (mesh.isGrid()) {
+      const int row = tile / mesh.tileColumns * kSide;
+      const int column = tile % mesh.tileColumns * kSide;
+      for (int i = row; i <= std::min(row + kSide, mesh.rows - 1); ++i) {
+        for (int k = column; k <= std::min(column + kSide, mesh.columns - 1); ++k) action(i * mesh.columns + k, tile);
+      }
+      continue;
+    }
+    const GuardMesh::Cell& begin = mesh.cells[toSize(mesh.tiles[toSize(tile)].cell)];
+    const GuardMesh::Cell& end = mesh.cells[toSize(mesh.tiles[toSize(tile)].endCell)];
+    for (int face = begin.face; face < end.face; ++face) {
+      for (const int node : mesh.faces[toSize(face)].node) action(node, tile);
+    }
+  }
+}
+
+void findTilesOfNodes(int nodeCount, GuardMesh& mesh) {
+  std::vector<std::vector<int>> tiles(toSize(nodeCount));
+  forEachNodeOfTiles(mesh, [&](int node, int tile) {
+    std::vector<int>& of = tiles[toSize(node)];
+    if (of.empty() || of.back() != tile) of.push_back(tile);
+  });
+  for (const std::vector<int>& of : tiles) {
+    mesh.firstTileOfNode.push_back(static_cast<int>(mesh.tilesOfNodes.size()));
+    mesh.tilesOfNodes.insert(mesh.tilesOfNodes.end(), of.begin(), of.end());
+  }
+  mesh.firstTileOfNode.push_back(static_cast<int>(mesh.tilesOfNodes.size()));
+}
+
 }  // namespace
 
 GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Grid>& grid) {
@@ -188,6 +222,7 @@ GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Gri
     fillTiles(body, order.data(), order.data() + order.size(), writer, mesh);
   }
   writer.beginCell(0, 0);
+  findTilesOfNodes(body.m_nodes.size(), mesh);
   return mesh;
 }
 

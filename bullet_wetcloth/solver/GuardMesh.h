@@ -45,7 +45,11 @@ struct GuardMesh {
   std::vector<Face> faces;
   std::vector<Cell> cells;  ///< and one more after the last
   std::vector<Tile> tiles;  ///< of a grid: row by row
-  int columns = 0;          ///< of nodes in a grid; 0: it is none
+  /// Of each node: the first one in tilesOfNodes, which are the tiles with a face or an edge that has the node, and of
+  /// a grid those whose rectangle has it; and one more after the last.
+  std::vector<int> firstTileOfNode;
+  std::vector<int> tilesOfNodes;
+  int columns = 0;  ///< of nodes in a grid; 0: it is none
   int rows = 0;
   int tileColumns = 0;
   int tileRows = 0;

@@ -12,18 +12,25 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 /// The nodes of all cloths that are guarded, one after the other, with places relative to the first cloth's origin.
+///
+/// Until the next look at all of them a node is expected on the straight way from its start to its end, or no further
+/// from there than its slack on each axis.
 struct GuardNodes {
   struct Place {
-    btScalar at[4];  ///< [m]; one more for the processor's sake
+    btScalar at[4];  ///< [m]; the last one is the slack of what is expected, else for the processor's sake
   };
   std::vector<Place> from;            ///< at the end of the small step before
   std::vector<Place> to;              ///< at the end of this one
+  std::vector<Place> start;           ///< where it is expected from
+  std::vector<Place> end;             ///< where it is expected until
   std::vector<Place> aside;           ///< how far of that they were moved without a change of velocity
   std::vector<btScalar> inverseMass;  ///< [1/kg]
 
   void resize(std::size_t count) {
     from.resize(count);
     to.resize(count);
+    start.resize(count);
+    end.resize(count);
     aside.resize(count);
     inverseMass.resize(count);
   }
@@ -33,6 +40,7 @@ struct GuardNodes {
 /// Nodes of two parts that must not meet: of a vertex and a face, or of two edges.
 struct GuardPair {
   int node[4];  ///< among GuardNodes
+  int tile[2];  ///< of GuardTiles, in which the two parts were found
 };
 
 /// Pairs that may meet.
@@ -45,6 +53,7 @@ struct GuardCandidates {
     edgeEdge.clear();
   }
   std::size_t size() const { return vertexFace.size() + edgeEdge.size(); }
+  bool isEmpty() const { return size() == 0; }
 };
 
 }  // namespace WETCLOTH_PRECISION

@@ -16,12 +16,12 @@ inline namespace WETCLOTH_PRECISION {
 namespace {
 
 constexpr int kPasses = 4;
-constexpr int kSlowings = 100;                // of what still violates a plane
-constexpr int kSlowingsInPart = 4;            // after these, groups go as one
+constexpr int kSlowings = 100;                    // of what still violates a plane
+constexpr int kSlowingsInPart = 4;                // after these, groups go as one
 constexpr btScalar kStill = btScalar(1.0 / 256);  // of the thickness: what approaches by less needs no other pass
-constexpr btScalar kReserve = btScalar(0.1);  // of the thickness, that is not used up at once
-constexpr btScalar kUsed = btScalar(0.5);     // of what is left of it, in a small step
-constexpr btScalar kParts = btScalar(0.05);   // of the thickness that is missing, in a small step
+constexpr btScalar kReserve = btScalar(0.1);      // of the thickness, that is not used up at once
+constexpr btScalar kUsed = btScalar(0.5);         // of what is left of it, in a small step
+constexpr btScalar kParts = btScalar(0.05);       // of the thickness that is missing, in a small step
 // In roundings of a place. A measured gap is wrong by less than 14 of them: see docs/guard.md.
 constexpr btScalar kApart = 1;  // a gap that is computed in double has to be more at the end of a small step
 constexpr btScalar kMeeting = btScalar(0.5);  // and when a plane is made
@@ -43,19 +43,33 @@ void shift(GuardNodes::Place& place, const btVector3& by, btScalar share) {
 
 WETCLOTH_INLINE Quad along(const Quad (&a)[3], const Quad (&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Four pairs at once, of which a plane across the normal of the face, or of both edges, may tell the parts apart by
-// more than a distance, now and after some steps. Returns which of them it does not.
+// How far along any direction two parts may come nearer than they are expected: each node may be away by its slack on
+// each axis.
+const btScalar kAcrossAxes = std::sqrt(btScalar(3));
+
 template <int first>
-WETCLOTH_INLINE unsigned nearPairs(const GuardPair* pairs, const GuardNodes& nodes, int steps, btScalar distance) {
-  Quad now[4][4];  // node, axis: from the first node
+btScalar slackOf(const GuardPair& pair, const GuardNodes& nodes) {
+  btScalar most[2] = {0, 0};
+  for (int node = 0; node < 4; ++node) {
+    btScalar& of = most[node < first ? 0 : 1];
+    of = std::max(of, nodes.start[toSize(pair.node[node])].at[3]);
+  }
+  return (most[0] + most[1]) * kAcrossAxes;
+}
+
+// Four pairs at once, of which a plane across the normal of the face, or of both edges, may tell the parts apart by
+// more than a distance, now and at the end of what is expected. Returns which of them it does not.
+template <int first>
+WETCLOTH_INLINE unsigned nearPairs(const GuardPair* pairs, const GuardNodes& nodes, btScalar distance) {
+  Quad now[4][4];  // node, axis and slack: from the first node
   Quad then[4][4];
   for (std::size_t node = 0; node < 4; ++node) {
     Quad starts[4];
     Quad ends[4];
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t i = toSize(pairs[k].node[node]);
-      starts[k] = load<Quad>(nodes.from[i].at);
-      ends[k] = starts[k] + everywhere<Quad>(static_cast<btScalar>(steps)) * (load<Quad>(nodes.to[i].at) - starts[k]);
+      starts[k] = load<Quad>(nodes.start[i].at);
+      ends[k] = load<Quad>(nodes.end[i].at);
     }
     transpose(starts, now[node]);
     transpose(ends, then[node]);
@@ -85,7 +99,13 @@ WETCLOTH_INLINE unsigned nearPairs(const GuardPair* pairs, const GuardNodes& nod
   widen(now);
   widen(then);
   const Quad gap = choose(low > zero, low, choose(high < zero, -high, zero));
-  const auto isNear = !(gap * gap > everywhere<Quad>(distance * distance) * along(normal, normal));
+  Quad slack[2] = {zero, zero};
+  for (int node = 0; node < 4; ++node) {
+    Quad& most = slack[node < first ? 0 : 1];
+    most = greater(now[node][3], most);
+  }
+  const Quad near = everywhere<Quad>(distance) + (slack[0] + slack[1]) * everywhere<Quad>(kAcrossAxes);
+  const auto isNear = !(gap * gap > near * near * along(normal, normal));
   unsigned result = 0;
   for (unsigned k = 0; k < 4; ++k) result |= isNear[k] ? 1u << k : 0u;
   return result;
@@ -110,26 +130,19 @@ void GuardPairs::clear() {
   m_edgeEdge.clear();
 }
 
-long long GuardPairs::look(const GuardNodes& nodes, const GuardCandidates& pairs,
-                           const GuardTiles::Expectation& expectation, const Contact& contact) {
+long long GuardPairs::look(const GuardNodes& nodes, const GuardCandidates& pairs, const Contact& contact) {
   m_contact = contact;
-  clear();
-  // Each of two nodes may leave its way by the slack on each axis.
-  const btScalar slack = btScalar(2 * std::sqrt(3.0)) * expectation.slack;
-  const btScalar near = reach() + slack;
-  return look<1>(nodes, pairs.vertexFace, expectation.steps, near, m_vertexFace) +
-         look<2>(nodes, pairs.edgeEdge, expectation.steps, near, m_edgeEdge);
+  return look<1>(nodes, pairs.vertexFace, m_vertexFace) + look<2>(nodes, pairs.edgeEdge, m_edgeEdge);
 }
 
 template <int first>
-long long GuardPairs::look(const GuardNodes& nodes, const std::vector<GuardPair>& pairs, int steps, btScalar near,
-                           GuardPlanes& planes) {
+long long GuardPairs::look(const GuardNodes& nodes, const std::vector<GuardPair>& pairs, GuardPlanes& planes) {
   long long meeting = 0;
   for (std::size_t begin = 0; begin < pairs.size(); begin += 4) {
     const std::size_t count = std::min(pairs.size() - begin, std::size_t(4));
-    const unsigned isNear = count < 4 ? 15 : nearPairs<first>(&pairs[begin], nodes, steps, near);
+    const unsigned isNear = count < 4 ? 15 : nearPairs<first>(&pairs[begin], nodes, reach());
     for (std::size_t k = 0; k < count; ++k) {
-      if ((isNear >> k & 1) != 0 && !addPlane<first>(nodes, pairs[begin + k], steps, near, planes)) ++meeting;
+      if ((isNear >> k & 1) != 0 && !addPlane<first>(nodes, pairs[begin + k], planes)) ++meeting;
     }
   }
   return meeting;
@@ -137,12 +150,9 @@ long long GuardPairs::look(const GuardNodes& nodes, const std::vector<GuardPair>
 
 // Returns false when the parts meet.
 template <int first>
-bool GuardPairs::addPlane(const GuardNodes& nodes, const GuardPair& pair, int steps, btScalar near,
-                          GuardPlanes& planes) const {
+bool GuardPairs::addPlane(const GuardNodes& nodes, const GuardPair& pair, GuardPlanes& planes) const {
   double places[4][3];
-  double ends[4][3];
   placesOf(pair, nodes.from, places);
-  placesOf(pair, nodes.to, ends);
   Separation separation = first == 1 ? separationOfVertexAndFace(places) : separationOfEdges(places);
   int low = 0, high = 0;
   const double found = gapAlong(separation.normal, places, first, low, high);
@@ -160,10 +170,14 @@ bool GuardPairs::addPlane(const GuardNodes& nodes, const GuardPair& pair, int st
   const double gap = gapAlong(normal, places, first, low, high);
   plane.gap = static_cast<btScalar>(gap);
   if (!(plane.gap > kMeeting * m_contact.rounding)) return false;
-  for (int node = 0; node < 4; ++node) {
-    for (int k = 0; k < 3; ++k) ends[node][k] = places[node][k] + steps * (ends[node][k] - places[node][k]);
+  const btScalar near = reach() + slackOf<first>(pair, nodes);
+  double expected[2][4][3];
+  placesOf(pair, nodes.start, expected[0]);
+  placesOf(pair, nodes.end, expected[1]);
+  if (std::min(gapAlong(normal, expected[0], first, low, high), gapAlong(normal, expected[1], first, low, high)) >
+      static_cast<double>(near)) {
+    return true;
   }
-  if (std::min(gap, gapAlong(normal, ends, first, low, high)) > static_cast<double>(near)) return true;
   planes.add(plane);
   return true;
 }

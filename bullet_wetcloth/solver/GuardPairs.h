@@ -5,7 +5,6 @@
 #include "bullet_wetcloth/solver/GuardGroups.h"
 #include "bullet_wetcloth/solver/GuardNodes.h"
 #include "bullet_wetcloth/solver/GuardPlanes.h"
-#include "bullet_wetcloth/solver/GuardTiles.h"
 
 #include <cstddef>
 #include <vector>
@@ -29,12 +28,18 @@ class GuardPairs {
     long long forced = 0;   ///< pairs that imposed nodes leave no room
   };
 
-  /// Puts planes between the parts of these pairs, where they were at the end of the small step before. Drops those
-  /// that cannot meet, nor come within the thickness, while every node keeps to where it is expected. Returns how many
-  /// meet already: between them is no plane, and they may pass.
-  long long look(const GuardNodes& nodes, const GuardCandidates& pairs, const GuardTiles::Expectation& expectation,
-                 const Contact& contact);
+  /// Puts planes between the parts of these pairs, too, where they were at the end of the small step before. Drops
+  /// those that cannot meet, nor come within the thickness, while every node keeps to where it is expected. Returns how
+  /// many meet already: between them is no plane, and they may pass.
+  long long look(const GuardNodes& nodes, const GuardCandidates& pairs, const Contact& contact);
   void clear();
+  /// Takes out the planes of pairs for which isGone(tile of the first part, tile of the second) is true.
+  template <class IsGone>
+  void drop(const IsGone& isGone) {
+    for (GuardPlanes* const planes : {&m_vertexFace, &m_edgeEdge}) {
+      planes->filter([&](std::size_t plane) { return !isGone(planes->tile(plane, 0), planes->tile(plane, 1)); });
+    }
+  }
   bool isEmpty() const { return size() == 0; }
   std::size_t size() const { return m_vertexFace.size() + m_edgeEdge.size(); }
 
@@ -49,10 +54,9 @@ class GuardPairs {
 
  private:
   template <int first>
-  long long look(const GuardNodes& nodes, const std::vector<GuardPair>& pairs, int steps, btScalar near,
-                 GuardPlanes& planes);
+  long long look(const GuardNodes& nodes, const std::vector<GuardPair>& pairs, GuardPlanes& planes);
   template <int first>
-  bool addPlane(const GuardNodes& nodes, const GuardPair& pair, int steps, btScalar near, GuardPlanes& planes) const;
+  bool addPlane(const GuardNodes& nodes, const GuardPair& pair, GuardPlanes& planes) const;
   btScalar reach() const;
   btScalar wantedGapOf(btScalar gapBefore) const;
   bool isViolated(const GuardPlanes& planes, std::size_t plane, btScalar gap) const;

@@ -12,6 +12,7 @@ inline namespace WETCLOTH_PRECISION {
 
 void GuardPlanes::clear() {
   for (std::vector<int>& nodes : m_node) nodes.clear();
+  for (std::vector<int>& tiles : m_tile) tiles.clear();
   for (std::vector<btScalar>& axis : m_normal) axis.clear();
   for (std::vector<btScalar>& weights : m_weight) weights.clear();
   m_gap.clear();
@@ -24,6 +25,7 @@ void GuardPlanes::add(const Plane& plane) {
     m_weight[k].push_back(plane.weights[k]);
   }
   for (std::size_t k = 0; k < 3; ++k) m_normal[k].push_back(plane.normal[k]);
+  for (std::size_t k = 0; k < 2; ++k) m_tile[k].push_back(plane.pair.tile[k]);
   m_gap.push_back(plane.gap);
   m_apart.push_back(plane.apart);
 }
@@ -34,6 +36,7 @@ void GuardPlanes::pick(const std::vector<std::size_t>& kept) {
     values.resize(kept.size());
   };
   for (std::vector<int>& nodes : m_node) pickFrom(nodes);
+  for (std::vector<int>& tiles : m_tile) pickFrom(tiles);
   for (std::vector<btScalar>& axis : m_normal) pickFrom(axis);
   for (std::vector<btScalar>& weights : m_weight) pickFrom(weights);
   pickFrom(m_gap);

@@ -38,6 +38,8 @@ class GuardPlanes {
   int first() const { return m_first; }
 
   int node(std::size_t plane, int which) const { return m_node[which][plane]; }
+  /// The tile in which a part was found.
+  int tile(std::size_t plane, int part) const { return m_tile[part][plane]; }
   btScalar weight(std::size_t plane, int which) const { return m_weight[which][plane]; }
   btVector3 normal(std::size_t plane) const {
     return btVector3(m_normal[0][plane], m_normal[1][plane], m_normal[2][plane]);
@@ -81,6 +83,7 @@ class GuardPlanes {
 
   int m_first;
   std::vector<int> m_node[4];
+  std::vector<int> m_tile[2];
   std::vector<btScalar> m_normal[3];
   std::vector<btScalar> m_weight[4];
   std::vector<btScalar> m_gap;

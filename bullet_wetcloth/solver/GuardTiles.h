@@ -12,20 +12,12 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-/// Finds the pairs of parts that may meet while every node keeps to where it is expected: k small steps from now within
-/// a distance, on each axis, of its place then if it goes on as in this small step.
+/// Finds the pairs of parts that may meet while every node keeps to where it is expected.
 ///
 /// Tiles of cells whose boxes overlap are taken for a pair, unless they lie in a rectangle of a grid that is not bent
 /// enough to meet itself (SheetBounds); then cells in the same way, and then parts.
 class GuardTiles {
  public:
-  /// What is expected: for so many small steps, the present one included, within so much [m] on each axis. Parts that
-  /// come nearer than `near` [m] are looked for, too.
-  struct Expectation {
-    int steps;
-    btScalar slack;
-    btScalar near;
-  };
   /// Which pairs.
   struct Scope {
     bool self;
@@ -36,13 +28,18 @@ class GuardTiles {
   void clear();
   /// A cloth whose nodes begin with this one.
   void add(const GuardMesh& mesh, std::size_t firstNode);
-  /// Appends the pairs. A pair whose parts share a node is none.
-  void findPairs(const GuardNodes& nodes, const Expectation& expectation, const Scope& scope, GuardCandidates& pairs);
+  /// Appends the pairs that may meet or come nearer than this [m]. A pair whose parts share a node is none.
+  void findPairs(const GuardNodes& nodes, btScalar near, const Scope& scope, GuardCandidates& pairs);
+  /// After these nodes are expected elsewhere: appends the pairs of all tiles of which that may change something. What
+  /// was found earlier of two tiles that areLookedAtAgain() is void.
+  void findPairsAgain(const GuardNodes& nodes, const std::vector<int>& changed, GuardCandidates& pairs);
+  bool areLookedAtAgain(int tileA, int tileB) const;
 
  private:
   struct Cloth {
     const GuardMesh* mesh;
     int firstNode;
+    int nodeCount;
     std::size_t firstTile;
     std::size_t firstCell;
     std::size_t firstEdge;
@@ -59,7 +56,6 @@ class GuardTiles {
     int firstColumn, lastColumn;
   };
 
-  void findEnds();
   void include(int node, GuardBox& box) const;
   void includeVector(int from, int to, GuardBox& box) const;
   Rectangle nodesOfTile(const GuardMesh& mesh, int tile) const;
@@ -77,10 +73,16 @@ class GuardTiles {
   GuardBox boxOf(const Cloth& cloth, const Rectangle& nodes) const;
   SheetBounds vectorsOf(const Cloth& cloth, const Rectangle& nodes) const;
   void boundTile(std::size_t tile);
+  void forgetBounds(std::size_t tile);
+  void markTilesOf(int node);
+  void findPairs();
+  void sortTiles();
   void boundCells(std::size_t tile);
   bool isFlat(const Cloth& cloth) const;
   bool isFlat(const Cloth& cloth, int tileA, int tileB) const;
   bool areCellsFlat(const Cloth& cloth, int cellA, int cellB);
+  bool areCellsFlat(const Cloth& cloth, const Rectangle& cells);
+  void lookAtNearTiles(std::size_t a, std::size_t b);
   void lookAtTiles(std::size_t a, std::size_t b);
   void lookAtCells(const Cloth& a, int cellA, const Cloth& b, int cellB);
   void verticesAndFaces(const Cloth& a, int cellA, const Cloth& b, int cellB);
@@ -89,19 +91,25 @@ class GuardTiles {
 
   std::vector<Cloth> m_cloths;
   std::vector<Tile> m_tiles;
-  std::vector<GuardNodes::Place> m_ends;
-  std::vector<bool> m_isFlat;          // of each cloth
+  std::vector<bool> m_isFlat;  // of each cloth
+  std::vector<bool> m_isNew;   // of each tile: what is expected of its nodes
+  std::vector<int> m_sorted;   // tiles, by where their boxes begin along an axis
+  int m_axis = 0;
   std::vector<GuardBox> m_boxes;       // of tiles
   std::vector<SheetBounds> m_vectors;  // of tiles
   std::vector<GuardBox> m_edgeBoxes;
   std::vector<GuardBox> m_faceBoxes;
   std::vector<GuardBox> m_cellBoxes;
   std::vector<SheetBounds> m_cellVectors;
+  enum class Flatness : unsigned char { unknown, flat, perhapsNot };
+  std::vector<Flatness> m_fourCells;  // of a grid, by node: the cells of two rows and columns that begin there
   std::vector<bool> m_cellsAreBound;  // of tiles
   std::vector<Quarter> m_quarters;
   const GuardNodes* m_nodes = nullptr;
-  Expectation m_expectation = {};
+  btScalar m_near = 0;
+  Scope m_scope = {};
   GuardCandidates* m_pairs = nullptr;
+  int m_pairOfTiles[2] = {0, 0};  // that are looked at
 };
 
 }  // namespace WETCLOTH_PRECISION

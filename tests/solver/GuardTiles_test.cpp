@@ -37,6 +37,14 @@ Key keyOf(int first, std::array<int, 4> node) {
   return {first, node[0], node[1], node[2], node[3]};
 }
 
+// Nodes are expected to go on for so many small steps, within so much [m]; parts that come nearer than `near` [m] are
+// wanted.
+struct Expectation {
+  int steps;
+  btScalar slack;
+  btScalar near;
+};
+
 // How many of the nodes are of the first part, and the nodes.
 struct FoundPair {
   FoundPair(int count, const int (&nodes)[4]) : first(count) { std::copy(nodes, nodes + 4, node); }
@@ -68,26 +76,30 @@ class Tangle {
     for (int k = 0; k < body.m_nodes.size(); ++k) parts.vertices.push_back(first + k);
   }
   bool isGrid(int node) const { return m_meshes[std::size_t(cloth[std::size_t(node)])]->isGrid(); }
-  std::vector<FoundPair> find(const std::vector<Place>& to, const GuardTiles::Expectation& expectation,
+  std::vector<FoundPair> find(const std::vector<Place>& to, const Expectation& expectation,
                               const GuardTiles::Scope& scope) const {
-    wetcloth::GuardNodes nodes;
-    nodes.resize(from.size());
-    for (std::size_t k = 0; k < from.size(); ++k) {
-      nodes.inverseMass[k] = 1;
-      for (std::size_t axis = 0; axis < 4; ++axis) {
-        nodes.from[k].at[axis] = axis < 3 ? btScalar(from[k][axis]) : 0;
-        nodes.to[k].at[axis] = axis < 3 ? btScalar(to[k][axis]) : 0;
-        nodes.aside[k].at[axis] = 0;
-      }
-    }
     GuardTiles tiles;
-    for (std::size_t k = 0; k < m_meshes.size(); ++k) tiles.add(*m_meshes[k], m_firstNodes[k]);
+    addTo(tiles);
     GuardCandidates candidates;
-    tiles.findPairs(nodes, expectation, scope, candidates);
-    std::vector<FoundPair> pairs;
-    for (const auto& pair : candidates.vertexFace) pairs.push_back({1, pair.node});
-    for (const auto& pair : candidates.edgeEdge) pairs.push_back({2, pair.node});
-    return pairs;
+    tiles.findPairs(expected(to, expectation), expectation.near, scope, candidates);
+    return listed(candidates);
+  }
+  // The same, but some nodes first were expected elsewhere.
+  std::vector<FoundPair> findAgain(const std::vector<Place>& first, const std::vector<Place>& then,
+                                   const std::vector<int>& changed, const Expectation& expectation) const {
+    GuardTiles tiles;
+    addTo(tiles);
+    GuardCandidates before, candidates;
+    tiles.findPairs(expected(first, expectation), expectation.near, {true, true}, before);
+    tiles.findPairsAgain(expected(then, expectation), changed, candidates);
+    const auto keep = [&](const std::vector<wetcloth::GuardPair>& pairs, std::vector<wetcloth::GuardPair>& kept) {
+      for (const auto& pair : pairs) {
+        if (!tiles.areLookedAtAgain(pair.tile[0], pair.tile[1])) kept.push_back(pair);
+      }
+    };
+    keep(before.vertexFace, candidates.vertexFace);
+    keep(before.edgeEdge, candidates.edgeEdge);
+    return listed(candidates);
   }
 
   std::vector<Place> from;
@@ -95,6 +107,28 @@ class Tangle {
   PassageMesh parts;
 
  private:
+  void addTo(GuardTiles& tiles) const {
+    for (std::size_t k = 0; k < m_meshes.size(); ++k) tiles.add(*m_meshes[k], m_firstNodes[k]);
+  }
+  wetcloth::GuardNodes expected(const std::vector<Place>& to, const Expectation& expectation) const {
+    wetcloth::GuardNodes nodes;
+    nodes.resize(from.size());
+    for (std::size_t k = 0; k < from.size(); ++k) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        nodes.start[k].at[axis] = btScalar(from[k][axis]);
+        nodes.end[k].at[axis] = btScalar(from[k][axis] + expectation.steps * (to[k][axis] - from[k][axis]));
+      }
+      nodes.start[k].at[3] = nodes.end[k].at[3] = expectation.slack;
+    }
+    return nodes;
+  }
+  static std::vector<FoundPair> listed(const GuardCandidates& candidates) {
+    std::vector<FoundPair> pairs;
+    for (const auto& pair : candidates.vertexFace) pairs.push_back({1, pair.node});
+    for (const auto& pair : candidates.edgeEdge) pairs.push_back({2, pair.node});
+    return pairs;
+  }
+
   std::vector<std::unique_ptr<GuardMesh>> m_meshes;
   std::vector<std::size_t> m_firstNodes;
 };
@@ -165,8 +199,10 @@ class GuardTilesOfATangle : public testing::Test {
     return to;
   }
   // Where nodes may be: on their way for all small steps, and some way off.
-  void expectFound(const std::vector<Place>& to, const GuardTiles::Expectation& expectation) {
-    const std::vector<FoundPair> pairs = m_tangle.find(to, expectation, {true, true});
+  void expectFound(const std::vector<Place>& to, const Expectation& expectation) {
+    expectAllIn(m_tangle.find(to, expectation, {true, true}), to, expectation);
+  }
+  void expectAllIn(const std::vector<FoundPair>& pairs, const std::vector<Place>& to, const Expectation& expectation) {
     std::set<Key> found;
     for (const FoundPair& pair : pairs) {
       const Key key = keyOf(pair.first, {pair.node[0], pair.node[1], pair.node[2], pair.node[3]});
@@ -222,9 +258,28 @@ TEST_F(GuardTilesOfATangle, AllThatMayMeetIsFoundOnce) {
   EXPECT_GT(m_required[1], 1000);
 }
 
+// In turn: nodes that are strewn over all cloths, and those in a corner, which leave most tiles as they were.
+TEST_F(GuardTilesOfATangle, WhatLeavesItsWayIsFoundAgain) {
+  const Expectation expectation = {3, btScalar(0.0005), btScalar(0.002)};
+  const std::vector<Place> first = moved(0.003);
+  const std::vector<Place> other = moved(0.02);
+  for (const std::size_t every : {1, 7, 100, 0}) {
+    std::vector<Place> then = first;
+    std::vector<int> changed;
+    for (std::size_t k = 0; k < then.size(); ++k) {
+      if (every > 0 ? k % every != 0 : k >= 12) continue;
+      then[k] = other[k];
+      changed.push_back(int(k));
+    }
+    expectAllIn(m_tangle.findAgain(first, then, changed, expectation), then, expectation);
+  }
+  EXPECT_GT(m_required[0], 100);
+  EXPECT_GT(m_required[1], 1000);
+}
+
 TEST_F(GuardTilesOfATangle, OnlyWhatIsAskedFor) {
   const std::vector<Place> to = moved(0.01);
-  const GuardTiles::Expectation expectation = {2, btScalar(0.001), btScalar(0.002)};
+  const Expectation expectation = {2, btScalar(0.001), btScalar(0.002)};
   const auto isSelf = [&](const FoundPair& pair) {
     return m_tangle.cloth[std::size_t(pair.node[0])] == m_tangle.cloth[std::size_t(pair.node[pair.first])];
   };
