@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/numerics/Lanes.h"
 #include "bullet_wetcloth/numerics/Quad.h"
+#include "bullet_wetcloth/solver/PlaneMaker.h"
 #include "bullet_wetcloth/solver/Separation.h"
 
 #include <algorithm>
@@ -23,92 +24,23 @@ constexpr btScalar kReserve = btScalar(0.1);      // of the thickness, that is n
 constexpr btScalar kUsed = btScalar(0.5);         // of what is left of it, in a small step
 constexpr btScalar kParts = btScalar(0.05);       // of the thickness that is missing, in a small step
 // In roundings of a place. A measured gap is wrong by less than 14 of them: see docs/guard.md.
-constexpr btScalar kApart = 1;  // a gap that is computed in double has to be more at the end of a small step
-constexpr btScalar kMeeting = btScalar(0.5);  // and when a plane is made
-constexpr btScalar kSmall = 32;               // a gap does not shrink below, and is computed in double there
-constexpr btScalar kNoise = 3;                // what moving two parts as one may do to a gap
+constexpr btScalar kApart = 1;   // a gap that is computed in double has to be more at the end of a small step
+constexpr btScalar kSmall = 32;  // a gap does not shrink below, and is computed in double there
+constexpr btScalar kNoise = 3;   // what moving two parts as one may do to a gap
 constexpr btScalar kWorthParting = 128;
-constexpr double kExact = 0.99;    // of a distance, that a gap along its direction has
 constexpr double kOfTheWay = 0.9;  // to the least gap, when a group is slowed
 
-void placesOf(const GuardPair& pair, const std::vector<GuardNodes::Place>& from, double (&places)[4][3]) {
-  for (int node = 0; node < 4; ++node) {
-    for (int k = 0; k < 3; ++k) places[node][k] = static_cast<double>(from[toSize(pair.node[node])].at[k]);
-  }
+WETCLOTH_INLINE Quad quadOf(const btVector3& vector) { return Quad{vector.x(), vector.y(), vector.z(), 0}; }
+WETCLOTH_INLINE btScalar dot(const Quad& a, const Quad& b) {
+  const Quad products = a * b;
+  return products[0] + products[1] + products[2];
+}
+WETCLOTH_INLINE Quad placeOf(const std::vector<GuardNodes::Place>& places, int node) {
+  return load<Quad>(places[toSize(node)].at);
 }
 
-void shift(GuardNodes::Place& place, const btVector3& by, btScalar share) {
-  for (int k = 0; k < 3; ++k) place.at[k] += by[k] * share;
-}
-
-WETCLOTH_INLINE Quad along(const Quad (&a)[3], const Quad (&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-// How far along any direction two parts may come nearer than they are expected: each node may be away by its slack on
-// each axis.
-const btScalar kAcrossAxes = std::sqrt(btScalar(3));
-
-template <int first>
-btScalar slackOf(const GuardPair& pair, const GuardNodes& nodes) {
-  btScalar most[2] = {0, 0};
-  for (int node = 0; node < 4; ++node) {
-    btScalar& of = most[node < first ? 0 : 1];
-    of = std::max(of, nodes.start[toSize(pair.node[node])].at[3]);
-  }
-  return (most[0] + most[1]) * kAcrossAxes;
-}
-
-// Four pairs at once, of which a plane across the normal of the face, or of both edges, may tell the parts apart by
-// more than a distance, now and at the end of what is expected. Returns which of them it does not.
-template <int first>
-WETCLOTH_INLINE unsigned nearPairs(const GuardPair* pairs, const GuardNodes& nodes, btScalar distance) {
-  Quad now[4][4];  // node, axis and slack: from the first node
-  Quad then[4][4];
-  for (std::size_t node = 0; node < 4; ++node) {
-    Quad starts[4];
-    Quad ends[4];
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t i = toSize(pairs[k].node[node]);
-      starts[k] = load<Quad>(nodes.start[i].at);
-      ends[k] = load<Quad>(nodes.end[i].at);
-    }
-    transpose(starts, now[node]);
-    transpose(ends, then[node]);
-  }
-  const auto way = [](const Quad(&at)[4][4], int from, int to, Quad(&result)[3]) {
-    for (int axis = 0; axis < 3; ++axis) result[axis] = at[to][axis] - at[from][axis];
-  };
-  Quad u[3], v[3];
-  way(now, first == 1 ? 1 : 0, first == 1 ? 2 : 1, u);
-  way(now, first == 1 ? 1 : 2, 3, v);
-  const Quad normal[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  const Quad zero = everywhere<Quad>(0);
-  // The least and the largest gap along the normal, over nodes of both parts and both times.
-  Quad low = everywhere<Quad>(std::numeric_limits<btScalar>::max());
-  Quad high = -low;
-  const auto widen = [&](const Quad(&at)[4][4]) {
-    for (int a = 0; a < first; ++a) {
-      for (int b = first; b < 4; ++b) {
-        Quad between[3];
-        way(at, b, a, between);
-        const Quad gap = along(between, normal);
-        low = choose(gap < low, gap, low);
-        high = choose(gap > high, gap, high);
-      }
-    }
-  };
-  widen(now);
-  widen(then);
-  const Quad gap = choose(low > zero, low, choose(high < zero, -high, zero));
-  Quad slack[2] = {zero, zero};
-  for (int node = 0; node < 4; ++node) {
-    Quad& most = slack[node < first ? 0 : 1];
-    most = greater(now[node][3], most);
-  }
-  const Quad near = everywhere<Quad>(distance) + (slack[0] + slack[1]) * everywhere<Quad>(kAcrossAxes);
-  const auto isNear = !(gap * gap > near * near * along(normal, normal));
-  unsigned result = 0;
-  for (unsigned k = 0; k < 4; ++k) result |= isNear[k] ? 1u << k : 0u;
-  return result;
+WETCLOTH_INLINE void shift(GuardNodes::Place& place, const Quad& by, btScalar share) {
+  store(place.at, load<Quad>(place.at) + by * everywhere<Quad>(share));
 }
 
 // How much the two places of a plane resist being moved apart: the sum of squared weights over masses [1/kg].
@@ -126,60 +58,16 @@ btScalar yieldOf(const GuardPlanes& planes, std::size_t plane, const GuardNodes&
 // --- planes ---------------------------------------------------------------------------------------------------------
 
 void GuardPairs::clear() {
+  m_isMeasured = false;
   m_vertexFace.clear();
   m_edgeEdge.clear();
 }
 
 long long GuardPairs::look(const GuardNodes& nodes, const GuardCandidates& pairs, const Contact& contact) {
   m_contact = contact;
-  return look<1>(nodes, pairs.vertexFace, m_vertexFace) + look<2>(nodes, pairs.edgeEdge, m_edgeEdge);
-}
-
-template <int first>
-long long GuardPairs::look(const GuardNodes& nodes, const std::vector<GuardPair>& pairs, GuardPlanes& planes) {
-  long long meeting = 0;
-  for (std::size_t begin = 0; begin < pairs.size(); begin += 4) {
-    const std::size_t count = std::min(pairs.size() - begin, std::size_t(4));
-    const unsigned isNear = count < 4 ? 15 : nearPairs<first>(&pairs[begin], nodes, reach());
-    for (std::size_t k = 0; k < count; ++k) {
-      if ((isNear >> k & 1) != 0 && !addPlane<first>(nodes, pairs[begin + k], planes)) ++meeting;
-    }
-  }
-  return meeting;
-}
-
-// Returns false when the parts meet.
-template <int first>
-bool GuardPairs::addPlane(const GuardNodes& nodes, const GuardPair& pair, GuardPlanes& planes) const {
-  double places[4][3];
-  placesOf(pair, nodes.from, places);
-  Separation separation = first == 1 ? separationOfVertexAndFace(places) : separationOfEdges(places);
-  int low = 0, high = 0;
-  const double found = gapAlong(separation.normal, places, first, low, high);
-  if (first == 2 && found < kExact * separation.distance) {
-    const Separation atAnEnd = separationOfEdgesAtAnEnd(places);
-    if (gapAlong(atAnEnd.normal, places, first, low, high) > found) separation = atAnEnd;
-  }
-  GuardPlanes::Plane plane = {pair, {}, {}, 0, static_cast<btScalar>(separation.distance)};
-  double normal[3];
-  for (int k = 0; k < 3; ++k) {
-    plane.normal[k] = static_cast<btScalar>(separation.normal[k]);
-    normal[k] = static_cast<double>(plane.normal[k]);
-  }
-  for (int k = 0; k < 4; ++k) plane.weights[k] = static_cast<btScalar>(separation.weights[k]);
-  const double gap = gapAlong(normal, places, first, low, high);
-  plane.gap = static_cast<btScalar>(gap);
-  if (!(plane.gap > kMeeting * m_contact.rounding)) return false;
-  const btScalar near = reach() + slackOf<first>(pair, nodes);
-  double expected[2][4][3];
-  placesOf(pair, nodes.start, expected[0]);
-  placesOf(pair, nodes.end, expected[1]);
-  if (std::min(gapAlong(normal, expected[0], first, low, high), gapAlong(normal, expected[1], first, low, high)) >
-      static_cast<double>(near)) {
-    return true;
-  }
-  planes.add(plane);
-  return true;
+  m_isMeasured = false;
+  const PlaneMaker maker(nodes, {reach(), contact.rounding});
+  return maker.make<1>(pairs.vertexFace, m_vertexFace) + maker.make<2>(pairs.edgeEdge, m_edgeEdge);
 }
 
 // What is nearer than that is held apart, whatever the thickness.
@@ -196,26 +84,42 @@ bool GuardPairs::isViolated(const GuardPlanes& planes, std::size_t plane, btScal
   return !(gap >= wantedGapOf(planes.gap(plane)) - kNoise * m_contact.rounding);
 }
 
-bool GuardPairs::holds(const GuardPlanes& planes, const GuardNodes& nodes) {
-  std::vector<GuardPlanes::Measure>& measures = m_measures[planes.first() - 1];
-  measures.clear();
-  for (std::size_t begin = 0; begin < planes.size(); begin += GuardPlanes::kAtOnce) {
-    measures.push_back(planes.measure(begin, nodes.to));
-    for (std::size_t k = 0; k < std::min(GuardPlanes::kAtOnce, planes.size() - begin); ++k) {
-      const btScalar gap = measures.back().gap[k];
-      if (isViolated(planes, begin + k, gap)) return false;
-      if (gap < kSmall * m_contact.rounding && !isApart(planes, begin + k, nodes)) return false;
-    }
+// Calls action(plane, measured gap, measured distance of the places) for the planes of a block that may be violated or
+// whose places are nearer than some distance.
+template <class Action>
+void GuardPairs::forEachNear(std::size_t block, const GuardPlanes::Measure& measure, btScalar apart,
+                             const Action& action) const {
+  const btScalar mostWanted = std::max(kSmall * m_contact.rounding, kReserve * m_contact.thickness);
+  unsigned near = GuardPlanes::below(measure, mostWanted, apart);
+  for (std::size_t k = 0; near != 0; ++k, near >>= 1) {
+    if ((near & 1) != 0) action(block * GuardPlanes::kAtOnce + k, measure.gap[k], measure.apart[k]);
   }
-  return true;
+}
+
+template <class Action>
+void GuardPairs::forEachNear(std::size_t block, const GuardPlanes::Measure& measure, const Action& action) const {
+  forEachNear(block, measure, -std::numeric_limits<btScalar>::infinity(), action);
+}
+
+bool GuardPairs::holds(GuardPlanes& planes, const GuardNodes& nodes) {
+  bool isHeld = true;
+  for (std::size_t block = 0; block < planes.blocks() && isHeld; ++block) {
+    const GuardPlanes::Measure& measure = m_isMeasured ? planes.measured(block) : planes.measure(block, nodes.to);
+    forEachNear(block, measure, [&](std::size_t plane, btScalar gap, btScalar) {
+      isHeld = isHeld && !isViolated(planes, plane, gap) &&
+               (gap >= kSmall * m_contact.rounding || isApart(planes, plane, nodes));
+    });
+  }
+  return isHeld;
 }
 
 // Beyond any doubt, since it is computed in double.
 bool GuardPairs::isApart(const GuardPlanes& planes, std::size_t plane, const GuardNodes& nodes) const {
-  GuardPair pair;
-  for (int k = 0; k < 4; ++k) pair.node[k] = planes.node(plane, k);
   double places[4][3];
-  placesOf(pair, nodes.to, places);
+  for (int node = 0; node < 4; ++node) {
+    const GuardNodes::Place& place = nodes.to[toSize(planes.node(plane, node))];
+    for (int axis = 0; axis < 3; ++axis) places[node][axis] = static_cast<double>(place.at[axis]);
+  }
   const btVector3 n = planes.normal(plane);
   const double normal[3] = {static_cast<double>(n.x()), static_cast<double>(n.y()), static_cast<double>(n.z())};
   int low = 0, high = 0;
@@ -224,22 +128,23 @@ bool GuardPairs::isApart(const GuardPlanes& planes, std::size_t plane, const Gua
 
 bool GuardPairs::settle(const GuardNodes& nodes) {
   if (!holds(m_vertexFace, nodes) || !holds(m_edgeEdge, nodes)) return false;
-  for (GuardPlanes* const planes : {&m_vertexFace, &m_edgeEdge}) {
-    const std::vector<GuardPlanes::Measure>& measures = m_measures[planes->first() - 1];
-    for (std::size_t k = 0; k < measures.size(); ++k) planes->keep(k * GuardPlanes::kAtOnce, measures[k]);
-  }
+  m_vertexFace.keep();
+  m_edgeEdge.keep();
+  m_isMeasured = false;
   return true;
 }
 
 // --- contact --------------------------------------------------------------------------------------------------------
 
-void GuardPairs::part(GuardNodes& nodes) const {
+void GuardPairs::part(GuardNodes& nodes) {
+  m_isMeasured = false;
   part(m_vertexFace, nodes);
   part(m_edgeEdge, nodes);
 }
 
 GuardPairs::Outcome GuardPairs::enforce(GuardNodes& nodes) {
   Outcome outcome;
+  m_isMeasured = false;
   bool isClear = false;
   for (int k = 0; k < kPasses && !isClear; ++k) {
     isClear = pass(m_vertexFace, nodes);
@@ -258,35 +163,39 @@ GuardPairs::Outcome GuardPairs::enforce(GuardNodes& nodes) {
 }
 
 void GuardPairs::part(const GuardPlanes& planes, GuardNodes& nodes) const {
-  for (std::size_t plane = 0; plane < planes.size(); ++plane) {
-    const btScalar missing = reach() - planes.apart(plane);
-    if (!(missing > 0)) continue;
-    const btScalar wanted = std::max(kParts * missing, 2 * kNoise * m_contact.rounding);
-    const btScalar way = std::min(wanted, m_contact.mostParting) - planes.nearest(plane, nodes.aside).apart;
-    const btScalar yield = yieldOf(planes, plane, nodes);
-    if (!(yield > 0) || !(way > 0)) continue;
-    const btVector3 normal = planes.normal(plane);
-    for (int k = 0; k < 4; ++k) {
-      const std::size_t i = toSize(planes.node(plane, k));
-      const btScalar share = way * planes.weight(plane, k) * nodes.inverseMass[i] / yield;
-      shift(nodes.to[i], normal, share);
-      shift(nodes.aside[i], normal, share);
-    }
+  for (std::size_t block = 0; block < planes.blocks(); ++block) {
+    forEachNear(block, planes.kept(block), reach(), [&](std::size_t plane, btScalar, btScalar apart) {
+      const btScalar missing = reach() - apart;
+      if (missing > 0) part(planes, plane, missing, nodes);
+    });
+  }
+}
+
+void GuardPairs::part(const GuardPlanes& planes, std::size_t plane, btScalar missing, GuardNodes& nodes) const {
+  const btScalar wanted = std::max(kParts * missing, 2 * kNoise * m_contact.rounding);
+  const btScalar way = std::min(wanted, m_contact.mostParting) - planes.nearest(plane, nodes.aside).apart;
+  const btScalar yield = yieldOf(planes, plane, nodes);
+  if (!(yield > 0) || !(way > 0)) return;
+  const Quad normal = quadOf(planes.normal(plane));
+  for (int k = 0; k < 4; ++k) {
+    const std::size_t i = toSize(planes.node(plane, k));
+    const btScalar share = way * planes.weight(plane, k) * nodes.inverseMass[i] / yield;
+    shift(nodes.to[i], normal, share);
+    shift(nodes.aside[i], normal, share);
   }
 }
 
 // Returns whether, before its turn, no part had left its side nor approached another within the thickness.
-bool GuardPairs::pass(const GuardPlanes& planes, GuardNodes& nodes) const {
+bool GuardPairs::pass(GuardPlanes& planes, GuardNodes& nodes) const {
   bool isClear = true;
-  for (std::size_t begin = 0; begin < planes.size(); begin += GuardPlanes::kAtOnce) {
-    const GuardPlanes::Measure measure = planes.measure(begin, nodes.to);
-    for (std::size_t k = 0; k < std::min(GuardPlanes::kAtOnce, planes.size() - begin); ++k) {
-      const std::size_t plane = begin + k;
-      if (measure.apart[k] < reach() && keepApart(planes, plane, nodes) > kStill * reach()) isClear = false;
-      if (!isViolated(planes, plane, measure.gap[k])) continue;
+  for (std::size_t block = 0; block < planes.blocks(); ++block) {
+    const GuardPlanes::Measure& measure = planes.measure(block, nodes.to);
+    forEachNear(block, measure, reach(), [&](std::size_t plane, btScalar gap, btScalar apart) {
+      if (apart < reach() && keepApart(planes, plane, nodes) > kStill * reach()) isClear = false;
+      if (!isViolated(planes, plane, gap)) return;
       isClear = false;
       keepSides(planes, plane, nodes);
-    }
+    });
   }
   return isClear;
 }
@@ -294,23 +203,29 @@ bool GuardPairs::pass(const GuardPlanes& planes, GuardNodes& nodes) const {
 // Within the thickness the two places do not come nearer, but for what other pairs that part do to them, and friction
 // slows how they slide. Returns by how much they would have come nearer [m].
 btScalar GuardPairs::keepApart(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const {
-  const btScalar wanted = planes.apart(plane) + planes.nearest(plane, nodes.aside).apart;
-  const btScalar missing = std::min(wanted, reach()) - planes.nearest(plane, nodes.to).apart;
-  const btScalar yield = yieldOf(planes, plane, nodes);
-  if (!(missing > 0) || !(yield > 0)) return 0;
-  const btVector3 normal = planes.normal(plane);
-  btVector3 slide(0, 0, 0);
+  const Quad normal = quadOf(planes.normal(plane));
+  Quad between = everywhere<Quad>(0);  // the two places
+  Quad aside = everywhere<Quad>(0);
+  const Quad origin = placeOf(nodes.to, planes.node(plane, 0));
   for (int k = 0; k < 4; ++k) {
-    const std::size_t i = toSize(planes.node(plane, k));
-    for (int axis = 0; axis < 3; ++axis) {
-      slide[axis] +=
-          planes.weight(plane, k) * (nodes.to[i].at[axis] - nodes.from[i].at[axis] - nodes.aside[i].at[axis]);
-    }
+    const Quad weight = everywhere<Quad>(planes.weight(plane, k));
+    between = between + weight * (placeOf(nodes.to, planes.node(plane, k)) - origin);
+    aside = aside + weight * placeOf(nodes.aside, planes.node(plane, k));
   }
-  slide -= normal * slide.dot(normal);
-  const btScalar length = slide.length();
+  const btScalar wanted = planes.apart(plane) + dot(aside, normal);
+  const btScalar missing = std::min(wanted, reach()) - dot(between, normal);
+  if (!(missing > 0)) return 0;
+  const btScalar yield = yieldOf(planes, plane, nodes);
+  if (!(yield > 0)) return 0;
+  Quad slide = -aside;
+  for (int k = 0; k < 4; ++k) {
+    const int node = planes.node(plane, k);
+    slide = slide + everywhere<Quad>(planes.weight(plane, k)) * (placeOf(nodes.to, node) - placeOf(nodes.from, node));
+  }
+  slide = slide - normal * everywhere<Quad>(dot(slide, normal));
+  const btScalar length = std::sqrt(dot(slide, slide));
   const btScalar held = length > 0 ? std::min(btScalar(1), m_contact.friction * missing / length) : 0;
-  const btVector3 move = normal * missing - slide * held;
+  const Quad move = normal * everywhere<Quad>(missing) - slide * everywhere<Quad>(held);
   for (int k = 0; k < 4; ++k) {
     const std::size_t i = toSize(planes.node(plane, k));
     shift(nodes.to[i], move, planes.weight(plane, k) * nodes.inverseMass[i] / yield);
@@ -326,45 +241,45 @@ void GuardPairs::keepSides(const GuardPlanes& planes, std::size_t plane, GuardNo
   const std::size_t b = toSize(planes.node(plane, nearest.high));
   const btScalar yield = nodes.inverseMass[a] + nodes.inverseMass[b];
   if (!(missing > 0) || !(yield > 0)) return;
-  const btVector3 normal = planes.normal(plane);
+  const Quad normal = quadOf(planes.normal(plane));
   shift(nodes.to[a], normal, missing * nodes.inverseMass[a] / yield);
   shift(nodes.to[b], normal, -missing * nodes.inverseMass[b] / yield);
 }
 
 // --- what is left ---------------------------------------------------------------------------------------------------
 
-// Returns whether something violated a plane, so that groups had to be slowed; those of earlier calls stay together.
+// Returns whether something violated a plane, so that groups had to be slowed; those of earlier calls stay together. If
+// not, all planes are measured.
 // @param asOne  no motion against the mean is left
 bool GuardPairs::slow(GuardNodes& nodes, bool asOne) {
-  bool isViolatedAnywhere = false;
-  const auto forEachViolated = [&](const auto& action) {
-    for (const GuardPlanes* const planes : {&m_vertexFace, &m_edgeEdge}) {
-      for (std::size_t begin = 0; begin < planes->size(); begin += GuardPlanes::kAtOnce) {
-        const GuardPlanes::Measure measure = planes->measure(begin, nodes.to);
-        for (std::size_t k = 0; k < std::min(GuardPlanes::kAtOnce, planes->size() - begin); ++k) {
-          if (isViolated(*planes, begin + k, measure.gap[k])) action(*planes, begin + k, measure.gap[k]);
-        }
-      }
+  m_violated.clear();
+  for (GuardPlanes* const planes : {&m_vertexFace, &m_edgeEdge}) {
+    for (std::size_t block = 0; block < planes->blocks(); ++block) {
+      forEachNear(block, planes->measure(block, nodes.to), [&](std::size_t plane, btScalar gap, btScalar) {
+        if (isViolated(*planes, plane, gap)) m_violated.push_back({planes, plane, gap});
+      });
     }
-  };
-  forEachViolated([&](const GuardPlanes& planes, std::size_t plane, btScalar) {
-    isViolatedAnywhere = true;
-    m_groups.join({planes.node(plane, 0), planes.node(plane, 1), planes.node(plane, 2), planes.node(plane, 3)});
-  });
-  if (!isViolatedAnywhere) return false;
+  }
+  m_isMeasured = m_violated.empty();
+  if (m_isMeasured) return false;
+  for (const Violation& at : m_violated) {
+    m_groups.join({at.planes->node(at.plane, 0), at.planes->node(at.plane, 1), at.planes->node(at.plane, 2),
+                   at.planes->node(at.plane, 3)});
+  }
   m_groups.measure(nodes);
-  forEachViolated([&](const GuardPlanes& planes, std::size_t plane, btScalar gap) {
-    const double before = static_cast<double>(planes.gap(plane));
-    const double wanted = static_cast<double>(wantedGapOf(planes.gap(plane)));
-    const double share = asOne ? 0 : kOfTheWay * (before - wanted) / (before - static_cast<double>(gap));
-    m_groups.limit(planes.node(plane, 0), std::max(share, 0.0));
-  });
+  for (const Violation& at : m_violated) {
+    const double before = static_cast<double>(at.planes->gap(at.plane));
+    const double wanted = static_cast<double>(wantedGapOf(at.planes->gap(at.plane)));
+    const double share = asOne ? 0 : kOfTheWay * (before - wanted) / (before - static_cast<double>(at.gap));
+    m_groups.limit(at.planes->node(at.plane, 0), std::max(share, 0.0));
+  }
   m_groups.apply(nodes);
   return true;
 }
 
 // Imposed nodes that move against each other may leave no room.
 long long GuardPairs::release(const GuardNodes& nodes) {
+  m_isMeasured = false;
   std::size_t released = 0;
   for (GuardPlanes* const planes : {&m_vertexFace, &m_edgeEdge}) {
     released += planes->filter([&](std::size_t plane) {

@@ -44,33 +44,42 @@ class GuardPairs {
   std::size_t size() const { return m_vertexFace.size() + m_edgeEdge.size(); }
 
   /// Parts that are within the thickness move away from each other, without a change of velocity. Once a small step.
-  void part(GuardNodes& nodes) const;
+  void part(GuardNodes& nodes);
   /// Moves the nodes' places at the end of a small step so that no part leaves its side.
   Outcome enforce(GuardNodes& nodes);
-  /// Whether all parts are on their sides. If they are, the small step is over for the planes.
+  /// Whether all parts are on their sides, where enforce() left the nodes, or where they are after a look. If they are,
+  /// the small step is over for the planes.
   bool settle(const GuardNodes& nodes);
   /// Gives up planes that imposed nodes leave no room, and returns how many.
   long long release(const GuardNodes& nodes);
 
  private:
-  template <int first>
-  long long look(const GuardNodes& nodes, const std::vector<GuardPair>& pairs, GuardPlanes& planes);
-  template <int first>
-  bool addPlane(const GuardNodes& nodes, const GuardPair& pair, GuardPlanes& planes) const;
+  struct Violation {
+    const GuardPlanes* planes;
+    std::size_t plane;
+    btScalar gap;  // [m]
+  };
+
   btScalar reach() const;
   btScalar wantedGapOf(btScalar gapBefore) const;
   bool isViolated(const GuardPlanes& planes, std::size_t plane, btScalar gap) const;
-  bool holds(const GuardPlanes& planes, const GuardNodes& nodes);
+  template <class Action>
+  void forEachNear(std::size_t block, const GuardPlanes::Measure& measure, btScalar apart, const Action& action) const;
+  template <class Action>
+  void forEachNear(std::size_t block, const GuardPlanes::Measure& measure, const Action& action) const;
+  bool holds(GuardPlanes& planes, const GuardNodes& nodes);
   bool isApart(const GuardPlanes& planes, std::size_t plane, const GuardNodes& nodes) const;
   void part(const GuardPlanes& planes, GuardNodes& nodes) const;
-  bool pass(const GuardPlanes& planes, GuardNodes& nodes) const;
+  void part(const GuardPlanes& planes, std::size_t plane, btScalar missing, GuardNodes& nodes) const;
+  bool pass(GuardPlanes& planes, GuardNodes& nodes) const;
   btScalar keepApart(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const;
   void keepSides(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const;
   bool slow(GuardNodes& nodes, bool asOne);
 
   GuardPlanes m_vertexFace{1};
   GuardPlanes m_edgeEdge{2};
-  std::vector<GuardPlanes::Measure> m_measures[2];  // of the last look at all planes, by kind
+  bool m_isMeasured = false;  // all planes, where nodes are
+  std::vector<Violation> m_violated;
   Contact m_contact = {};
   GuardGroups m_groups;
 };
