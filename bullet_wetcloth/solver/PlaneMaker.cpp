@@ -158,6 +158,7 @@ bool PlaneMaker::makeExactly(const GuardPair& pair, GuardPlanes& planes) const {
     const Separation atAnEnd = separationOfEdgesAtAnEnd(places);
     if (gapAlong(atAnEnd.normal, places, first, low, high) > found) separation = atAnEnd;
   }
+  turnApart(places, first, separation);
   GuardPlanes::Plane plane = {pair, {}, {}, 0, static_cast<btScalar>(separation.distance)};
   double normal[3];
   for (int k = 0; k < 3; ++k) {

@@ -142,6 +142,26 @@ Separation separationOfEdgesAtAnEnd(const double (&nodes)[4][3]) {
   return nearest;
 }
 
+// The gap between the two nodes that are nearest along the normal becomes what it may be at most, in turns: each turn is by
+// as little as that takes.
+void turnApart(const double (&nodes)[4][3], int first, Separation& separation) {
+  constexpr int kTurns = 8;
+  constexpr double kNear = 0.99;  // of the distance
+  for (int turn = 0; turn < kTurns; ++turn) {
+    int low = 0, high = 0;
+    const double gap = gapAlong(separation.normal, nodes, first, low, high);
+    if (!(gap < kNear * separation.distance)) return;
+    Point way;
+    subtract(nodes[low], nodes[high], way);
+    const double length2 = dot(way, way);
+    if (!(length2 > 0)) return;
+    const double share = (separation.distance - gap) / length2;
+    for (int k = 0; k < 3; ++k) separation.normal[k] += share * way[k];
+    const double length = std::sqrt(dot(separation.normal, separation.normal));
+    for (int k = 0; k < 3; ++k) separation.normal[k] /= length;
+  }
+}
+
 double gapAlong(const double (&normal)[3], const double (&nodes)[4][3], int first, int& low, int& high) {
   double along[4];
   for (int node = 0; node < 4; ++node) {

@@ -15,6 +15,7 @@ using wetcloth::gapAlong;
 using wetcloth::Separation;
 using wetcloth::separationOfEdges;
 using wetcloth::separationOfVertexAndFace;
+using wetcloth::turnApart;
 
 struct Four {
   double node[4][3];
@@ -174,6 +175,39 @@ TEST(Separation, OfAVertexAboveAFace) {
 }
 
 // By the definition: the lowest node of the first part above the highest one of the second.
+// The difference of two places that are 1e-11 m apart is known to five digits: across it the far corners of parts of
+// 0.1 m are on the wrong side.
+TEST(Separation, PartsWhoseCornersNearlyTouchAreToldApart) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(-1, 1);
+  int turned = 0;
+  for (int turn = 0; turn < 200; ++turn) {
+    for (const int first : {1, 2}) {
+      // Both are nearly in a plane across d, the first above and the second below it.
+      double d[3] = {number(random), number(random), 2};
+      const double length = std::hypot(d[0], d[1], d[2]);
+      for (double& x : d) x /= length;
+      double nodes[4][3];
+      for (int node = 0; node < 4; ++node) {
+        const double x = node == 0 || node == first ? 0.02 : 0.1 * number(random);
+        const double y = node == 0 || node == first ? 0.03 : 0.1 * number(random);
+        const double height = (node < first ? 1 : -1) * (node == 0 || node == first ? 5e-12 : 1e-11);
+        nodes[node][0] = 0.3 + x * d[2] + height * d[0];
+        nodes[node][1] = 0.3 + y * d[2] + height * d[1];
+        nodes[node][2] = 0.3 - x * d[0] - y * d[1] + height * d[2];
+      }
+      Separation separation = first == 1 ? separationOfVertexAndFace(nodes) : separationOfEdges(nodes);
+      int low = 0, high = 0;
+      if (gapAlong(separation.normal, nodes, first, low, high) > 0.9 * separation.distance) continue;
+      ++turned;
+      turnApart(nodes, first, separation);
+      EXPECT_GT(gapAlong(separation.normal, nodes, first, low, high), 0.5 * separation.distance) << first;
+      EXPECT_NEAR(std::hypot(separation.normal[0], separation.normal[1], separation.normal[2]), 1, 1e-12);
+    }
+  }
+  EXPECT_GT(turned, 20);
+}
+
 TEST(Separation, AGapIsBetweenTheNearestNodes) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> number(-1, 1);
