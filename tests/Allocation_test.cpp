@@ -68,7 +68,7 @@ void addWaterCycle(BodyScene& scene, wetcloth::WetCloth& cloth) {
   cloth.add<wetcloth::ContactWetting>();
   cloth.add<wetcloth::Diffusion>();
   cloth.add<wetcloth::Seepage>({0.01, 3});
-  cloth.add<wetcloth::Dripping>({0.1, 1, 1e-5, 0.02, nullptr});
+  cloth.add<wetcloth::Dripping>({0.1, 1, 1e-5, 0.02, 0.5, nullptr});
   cloth.add<wetcloth::Drying>();
   cloth.add<wetcloth::WetStiffness>({0.8, 0.5, 1, 2});
   cloth.add<wetcloth::Swelling>();

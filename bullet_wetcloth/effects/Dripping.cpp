@@ -7,6 +7,7 @@
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace wetcloth {
@@ -19,6 +20,7 @@ void requireValid(const Dripping::Parameters& parameters) {
   requirePositive("Dripping.timeConstant", parameters.timeConstant);
   requireNotNegative("Dripping.dropMass", parameters.dropMass);
   requireFraction("Dripping.slopeTolerance", parameters.slopeTolerance);
+  requireFraction("Dripping.squeeze", parameters.squeeze);
 }
 
 }  // namespace
@@ -49,6 +51,7 @@ void Dripping::attach(WetCloth& cloth) {
   // What dripped from nodes that are gone is some other node's to report.
   for (std::size_t i = nodes; i < m_pending.size(); ++i) m_pending[0] += m_pending[i];
   m_pending.resize(nodes, 0);
+  m_spans.restart();
   m_nothingLeft.restart();
   m_steadyState.restart();
 }
@@ -60,16 +63,19 @@ void Dripping::apply(WetCloth& cloth, const Step& step) {
   if (m_nothingLeft.holds(water)) return;
   if (m_steadyState.isReached(cloth.body(), cloth.water(), step.gravity)) return;
 
+  if (m_parameters.squeeze > 0) m_spans.measure(*m_mesh, cloth.body());
   const btVector3 down = step.gravity / gravity;
+  const double least = m_parameters.holdingSaturation * squeezedRoom(0, m_parameters.squeeze);
   bool hasExcess = false;
   bool drips = false;
   for (std::size_t i = 0; i < m_carry.size(); ++i) {
-    if (!(water.held(i) > m_parameters.holdingSaturation * water.capacity(i))) continue;
+    if (!(water.held(i) > least * water.capacity(i))) continue;
     hasExcess = true;
-    if (!isLowPoint(cloth.body(), i, down)) continue;
+    const double stays = holding(cloth, i, down);
+    if (!(water.held(i) > stays)) continue;
     drips = true;
     cloth.joinArrivals(i);
-    shed(water, i, step.dt);
+    shed(water, i, stays, step.dt);
     report(cloth, step, i);
   }
   m_nodesVisited += static_cast<long long>(m_carry.size());
@@ -84,6 +90,14 @@ double Dripping::pendingMass() const {
   return sum.value();
 }
 
+double Dripping::holding(const WetCloth& cloth, std::size_t node, const btVector3& down) const {
+  const double squeeze = m_parameters.squeeze;
+  const double room = squeeze > 0 ? squeezedRoom(m_spans.share(node), squeeze) : 1;
+  const double atLowPoint = m_parameters.holdingSaturation * room * cloth.capacity(node);
+  if (cloth.held(node) > atLowPoint && isLowPoint(cloth.body(), node, down)) return atLowPoint;
+  return room < 1 ? room * cloth.capacity(node) : std::numeric_limits<double>::infinity();
+}
+
 bool Dripping::isLowPoint(const btSoftBody& body, std::size_t node, const btVector3& down) const {
   const btVector3& x = body.m_nodes[static_cast<int>(node)].m_x;
   for (const int neighbour : m_mesh->neighbours(node)) {
@@ -92,9 +106,8 @@ bool Dripping::isLowPoint(const btSoftBody& body, std::size_t node, const btVect
   return true;
 }
 
-void Dripping::shed(Water& water, std::size_t node, double dt) {
+void Dripping::shed(Water& water, std::size_t node, double holding, double dt) {
   const double held = water.held(node);
-  const double holding = m_parameters.holdingSaturation * water.capacity(node);
   const double exact = held - m_carry[node];
   const double leaving = drippingStep(exact, holding, m_parameters.timeConstant, dt);
   const bool isLast = exact - leaving - holding <= kNegligible * water.capacity(node);

@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/mesh/RestMesh.h"
 #include "bullet_wetcloth/numerics/NothingLeft.h"
 #include "bullet_wetcloth/numerics/RoundingCarry.h"
+#include "bullet_wetcloth/numerics/SpannedAreas.h"
 #include "bullet_wetcloth/numerics/SteadyState.h"
 #include "bullet_wetcloth/water/Water.h"
 
@@ -27,6 +28,13 @@ WETCLOTH_EXPORT double drippingStep(double held, double holding, double timeCons
 /// @param down  unit vector along gravity
 WETCLOTH_EXPORT bool isLower(const btVector3& other, const btVector3& x, const btVector3& down, double slopeTolerance);
 
+/// Room that the pores of squeezed cloth have for water, as a share of their room at rest: 1 - squeeze (1 - spanned).
+/// The library's own model, with no measurement behind it: pores lose room as the area disappears that cloth spans,
+/// whether it is pressed together or crumples; stretched cloth gains none. Pressure between layers is not looked at.
+/// @param spanned  area that the node's triangles span, as a share of that at rest, [0, 1]: SpannedAreas
+/// @param squeeze  [0, 1]
+inline double squeezedRoom(double spanned, double squeeze) { return 1 - squeeze * (1 - spanned); }
+
 /// A drop that has fallen from a cloth. The library does not follow it: an application may make a particle of it.
 struct Drip {
   double time;         ///< start of the step of water in which it fell [s]
@@ -39,6 +47,10 @@ struct Drip {
 
 /// Lets water above the holding capacity drip from low points: nodes none of whose neighbours in the mesh lies lower
 /// along gravity. A level hem drips all along, and a level cloth everywhere: what it may lie on is not looked at.
+///
+/// With `squeeze` water is pressed out, too: see squeezedRoom(). A node then holds no more than its room, wherever it
+/// lies, and a low point holdingSaturation of its room. What is pressed out leaves where it is pressed out, at the rate
+/// of what drips: it is not followed as it runs down the outside of the cloth.
 ///
 /// Water leaves the cloth continuously, with its node's velocity; it is reported in drops. Pinned nodes drip, too.
 /// Without gravity nothing drips.
@@ -55,6 +67,9 @@ class WETCLOTH_EXPORT Dripping : public Effect {
     /// Sine of the slope below which a neighbour counts as no lower, [0, 1]; about a degree, a guess. With 0 the last
     /// digit decides whether a level hem drips; with 1 every node is a low point.
     double slopeTolerance = 0.02;
+    /// How much room for water goes with the area that goes when cloth is compressed, crumpled or wrung, [0, 1]: 0
+    /// none, 1 in proportion.
+    double squeeze = 0;
     /// Takes each drop, inside the step and before Bullet's own. It may add rigid bodies to the world; it must not
     /// change soft bodies, effects or water. If it throws, this effect is removed with a message, as any that throws.
     std::function<void(const Drip&)> onDrip = {};
@@ -88,7 +103,8 @@ class WETCLOTH_EXPORT Dripping : public Effect {
 
  private:
   bool isLowPoint(const btSoftBody& body, std::size_t node, const btVector3& down) const;
-  void shed(Water& water, std::size_t node, double dt);
+  double holding(const WetCloth& cloth, std::size_t node, const btVector3& down) const;
+  void shed(Water& water, std::size_t node, double holding, double dt);
   void report(WetCloth& cloth, const Step& step, std::size_t node);
 
   Parameters m_parameters;
@@ -97,8 +113,9 @@ class WETCLOTH_EXPORT Dripping : public Effect {
   std::vector<double> m_pending;  // what left each node since its last drop [kg]
   CompensatedSum m_dripped;
   long long m_drops = 0;
+  SpannedAreas m_spans;
   SteadyState m_steadyState{SteadyState::DependsOn::waterAndShape};
-  NothingLeft m_nothingLeft;  // above the holding capacity
+  NothingLeft m_nothingLeft;  // above what a node holds however it is squeezed
   long long m_nodesVisited = 0;
 };
 

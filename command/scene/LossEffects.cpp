@@ -15,14 +15,17 @@ AddEffect readDripping(const JsonCursor& cursor, const EffectContext&) {
   readNumber(cursor, "time_constant_s", Range::positive(), parameters.timeConstant);
   readNumber(cursor, "drop_mass_kg", Range::notNegative(), parameters.dropMass);
   readNumber(cursor, "slope_tolerance", Range::fraction(), parameters.slopeTolerance);
+  readNumber(cursor, "squeeze", Range::fraction(), parameters.squeeze);
   return addEffect<Dripping>(parameters);
 }
 
 EffectEntry dripping() {
   EffectEntry entry;
   entry.key = "dripping";
-  entry.about = "from low points; a level cloth drips everywhere";
-  entry.keys = {"dripping", {"holding_saturation", "time_constant_s", "drop_mass_kg", "slope_tolerance"}};
+  entry.about =
+      "from low points; a level cloth drips everywhere; `squeeze`, [0, 1], lets water go where cloth is crumpled or "
+      "wrung";
+  entry.keys = {"dripping", {"holding_saturation", "time_constant_s", "drop_mass_kg", "slope_tolerance", "squeeze"}};
   entry.read = readDripping;
   entry.byDefault = addDefault<Dripping>;
   entry.needs.faces = true;

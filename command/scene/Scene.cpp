@@ -68,6 +68,7 @@ double ClothScene::fastestPush() const {
     const auto& patch = std::get<wetcloth::ClothPatch>(shape);
     const double reach = static_cast<double>(patch.edgeU.length() + patch.edgeV.length());
     speed += 2 * SIMD_PI * std::abs(twist->turnsPerSecond) * reach;
+    if (twist->turns > 0) speed += twist->approach * std::abs(twist->turnsPerSecond) / twist->turns;
   }
   return speed;
 }

@@ -45,7 +45,8 @@ struct SpringScene {
 struct TwistScene {
   wetcloth::ClothPatch::Edge edge = wetcloth::ClothPatch::Edge::top;
   double turnsPerSecond = 1;
-  double turns = 1;  ///< in all
+  double turns = 1;     ///< in all
+  double approach = 0;  ///< towards the opposite edge in all these turns [m], in proportion to them
 };
 
 /// A patch's or mesh's pinned nodes, moved together: where to at which time, in straight lines between.

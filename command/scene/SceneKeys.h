@@ -42,7 +42,7 @@ inline const KeyTable obj{"obj", {"file", "scale", "rotation_deg", "translation_
 
 inline const KeyTable pins{"pins", {"corners", "edges", "nodes", "box", "sphere", "group"}};
 
-inline const KeyTable twist{"twist", {"edge", "turns_per_s", "turns"}};
+inline const KeyTable twist{"twist", {"edge", "turns_per_s", "turns", "approach_m"}};
 
 inline const KeyTable motion{"motion", {"times_s", "offsets_m"}};
 

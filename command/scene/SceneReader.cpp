@@ -243,6 +243,10 @@ TwistScene readTwist(JsonCursor cursor, const ClothScene& cloth) {
   }
   readNumber(cursor, "turns_per_s", Range::finite(), twist.turnsPerSecond);
   readNumber(cursor, "turns", Range::notNegative(), twist.turns);
+  const bool isAlongU = twist.edge == ClothPatch::Edge::bottom || twist.edge == ClothPatch::Edge::top;
+  const double apart = static_cast<double>((isAlongU ? patch->edgeV : patch->edgeU).length());
+  const Range approach{0, apart, true, "from 0 to less than the distance to the opposite edge", false};
+  readNumber(cursor, "approach_m", approach, twist.approach);
   return twist;
 }
 

@@ -2,6 +2,7 @@
 #include "command/scene/Twist.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace command {
 namespace {
@@ -25,13 +26,17 @@ Twist::Twist(btSoftBody& body, const ClothPatch& patch, const TwistScene& scene)
   }
   m_centre = (m_starts.front() + m_starts.back()) / 2;
   m_axis = (isAlongU(scene.edge) ? patch.edgeV : patch.edgeU).normalized();
+  const bool isFarEdge = scene.edge == Edge::top || scene.edge == Edge::right;
+  m_inwards = isFarEdge ? btVector3(-m_axis) : m_axis;
 }
 
 void Twist::moveTo(double time) {
-  const double turns = std::min(m_scene.turnsPerSecond * time, m_scene.turns);
-  const btQuaternion turn(m_axis, btScalar(SIMD_2_PI * turns));
+  const double turns = std::min(std::abs(m_scene.turnsPerSecond) * time, m_scene.turns);
+  const btQuaternion turn(m_axis, btScalar(SIMD_2_PI * std::copysign(turns, m_scene.turnsPerSecond)));
+  const double share = m_scene.turns > 0 ? turns / m_scene.turns : 0;
+  const btVector3 centre = m_centre + m_inwards * btScalar(share * m_scene.approach);
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
-    m_body.m_nodes[m_nodes[i]].m_x = m_centre + quatRotate(turn, m_starts[i] - m_centre);
+    m_body.m_nodes[m_nodes[i]].m_x = centre + quatRotate(turn, m_starts[i] - m_centre);
   }
 }
 

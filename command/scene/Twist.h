@@ -7,7 +7,8 @@
 
 namespace command {
 
-/// Turns the nodes of a patch's edge about the line through the middles of that edge and the opposite one.
+/// Turns the nodes of a patch's edge about the line through the middles of that edge and the opposite one, towards
+/// which they move meanwhile.
 class Twist {
  public:
   Twist(btSoftBody& body, const wetcloth::ClothPatch& patch, const TwistScene& scene);
@@ -22,6 +23,7 @@ class Twist {
   std::vector<btVector3> m_starts;
   btVector3 m_centre;
   btVector3 m_axis;
+  btVector3 m_inwards;  // from the edge to the opposite one
 };
 
 }  // namespace command

@@ -74,6 +74,14 @@ TEST(Audit, OnlyAPinnedEdgeCanBeTwisted) {
   EXPECT_NE(refusal(scene).find("/cloths/0/twist/edge"), std::string::npos);
 }
 
+TEST(Audit, ATwistedEdgeMustNotReachTheOppositeOne) {
+  for (const double approach : {-0.1, 1.7}) {
+    Json scene = wrungSheet();
+    scene["cloths"][0]["twist"]["approach_m"] = approach;
+    EXPECT_NE(refusal(scene).find("/cloths/0/twist/approach_m"), std::string::npos) << approach;
+  }
+}
+
 TEST(Audit, AFlagThatBulletDoesNotHaveIsRefused) {
   Json scene = wrungSheet();
   scene["cloths"][0]["collisions"] = {"VF_SELF"};

@@ -170,6 +170,21 @@ TEST(WaterCycleCloth, ALaundryLineDripsFastAndThenSlowly) {
   EXPECT_GT(tenths.at(0).get<double>(), 5 * tenths.at(9).get<double>());
 }
 
+TEST(WaterCycleCloth, AWrungTowelLosesWaterByTheSqueezeAndPassesThroughNothing) {
+  Json scene = readJson(sceneFile("wring_out"));
+  scene["duration_s"] = 2;
+  clothOf(scene)["patch"]["columns"] = 17;
+  clothOf(scene)["patch"]["rows"] = 13;
+  clothOf(scene)["twist"]["turns_per_s"] = 1.5;
+  const Json wrung = runScene(scene);
+  EXPECT_EQ(wrung.at("guard").at("passages"), 0);
+  EXPECT_EQ(wrung.at("audit").at("vertex_face"), 0);
+  EXPECT_EQ(wrung.at("audit").at("edge_edge"), 0);
+  EXPECT_GT(ledger(wrung, "dripped"), 0.1 * ledger(wrung, "initial"));
+  clothOf(scene)["effects"]["dripping"].erase("squeeze");
+  EXPECT_LT(ledger(runScene(scene), "dripped"), 0.4 * ledger(wrung, "dripped"));
+}
+
 TEST(WaterCycleCloth, TheSummaryHasALineForDripsAndOneForRunOff) {
   const TemporaryDirectory directory;
   const auto summaryOf = [&](const Json& scene) {

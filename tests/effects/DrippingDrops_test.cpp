@@ -289,6 +289,7 @@ TEST(DrippingBadInput, IsNamed) {
   expectRefused(&Dripping::Parameters::timeConstant, "timeConstant", {0, -1, kNaN, kInfinity});
   expectRefused(&Dripping::Parameters::dropMass, "dropMass", {-1e-5, kNaN, kInfinity});
   expectRefused(&Dripping::Parameters::slopeTolerance, "slopeTolerance", {-0.1, 1.1, kNaN, kInfinity});
+  expectRefused(&Dripping::Parameters::squeeze, "squeeze", {-0.1, 1.1, kNaN, kInfinity});
 }
 
 TEST(DrippingBadInput, ABodyWithoutTrianglesIsRefused) {

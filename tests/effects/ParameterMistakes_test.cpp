@@ -102,7 +102,8 @@ Mistakes<Dripping> mistakesIn<Dripping>() {
   return {{[](P& p) { p.holdingSaturation = 1.5; }, "Dripping.holdingSaturation", "1.5"},
           {[](P& p) { p.timeConstant = 0; }, "Dripping.timeConstant", "0"},
           {[](P& p) { p.dropMass = -1; }, "Dripping.dropMass", "-1"},
-          {[](P& p) { p.slopeTolerance = 7; }, "Dripping.slopeTolerance", "7"}};
+          {[](P& p) { p.slopeTolerance = 7; }, "Dripping.slopeTolerance", "7"},
+          {[](P& p) { p.squeeze = -0.5; }, "Dripping.squeeze", "-0.5"}};
 }
 
 template <>

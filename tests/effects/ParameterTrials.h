@@ -147,10 +147,12 @@ struct Trial<Dripping> : TrialOf<Dripping> {
     p.timeConstant = 0.5;
     p.dropMass = 1e-7;
     p.slopeTolerance = 0.5;
+    p.squeeze = 0.5;
     p.onDrip = [](const Drip&) {};
   }
   static auto values(const P& p) {
-    return std::make_tuple(p.holdingSaturation, p.timeConstant, p.dropMass, p.slopeTolerance, p.onDrip != nullptr);
+    return std::make_tuple(p.holdingSaturation, p.timeConstant, p.dropMass, p.slopeTolerance, p.squeeze,
+                           p.onDrip != nullptr);
   }
 };
 

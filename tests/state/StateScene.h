@@ -135,7 +135,7 @@ class StateScene {
     cloth.add<wetcloth::Splash>({wetcloth::Splash::Cone{btVector3(0.5f, 0.5f, 1), 0.4, 2}, btVector3(0, 0, -3), 0.05});
     cloth.add<wetcloth::Diffusion>();
     cloth.add<wetcloth::Seepage>({2e-3, 3});
-    cloth.add<wetcloth::Dripping>({0.02, 1, 1e-6, 0.02, nullptr});
+    cloth.add<wetcloth::Dripping>({0.02, 1, 1e-6, 0.02, 0.5, nullptr});
     wetcloth::Drying::Parameters drying;
     drying.air = btVector3(2, 0, 0);
     cloth.add<wetcloth::Drying>(drying);

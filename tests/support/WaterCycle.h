@@ -91,7 +91,7 @@ inline void addTransportOrLoss(wetcloth::WetCloth& cloth, const std::string& nam
     cloth.add<wetcloth::Seepage>({choice.number(1e-6, 10), choice.number(1, 10)});
   } else if (name == "dripping") {
     cloth.add<wetcloth::Dripping>(
-        {choice.fraction(), choice.number(1e-3, 100), choice.number(1e-9, 1e-3), choice.fraction(), nullptr});
+        {choice.fraction(), choice.number(1e-3, 100), choice.number(1e-9, 1e-3), choice.fraction(), 0, nullptr});
   } else if (name == "drying") {
     wetcloth::Drying::Parameters parameters;
     parameters.temperature = 60 * choice.fraction();
