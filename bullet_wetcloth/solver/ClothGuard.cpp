@@ -69,9 +69,11 @@ struct Difference {
 
 }  // namespace
 
-void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters) {
+void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters,
+                       const GuardExemptions* exemptions) {
   m_cloths = cloths;
   m_parameters = parameters;
+  m_exemptions = exemptions;
   m_kept.resize(cloths.size());
   m_first.clear();
   m_tiles.clear();
@@ -249,6 +251,7 @@ void ClothGuard::look() {
   m_contact.mostParting = kPartingOfSlack * m_slack;
   const GuardTiles::Expectation expectation = {m_ahead, m_slack, m_contact.thickness};
   m_tiles.findPairs(m_nodes, expectation, {m_parameters.self, m_parameters.others}, m_candidates);
+  if (m_exemptions) m_exemptions->takeFrom(m_candidates);
   m_totals.candidates += static_cast<long long>(m_candidates.size());
   m_totals.meeting = std::max(m_totals.meeting, m_pairs.look(m_nodes, m_candidates, expectation, m_contact));
   m_totals.pairs += static_cast<long long>(m_pairs.size());

@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Precision.h"
 #include "bullet_wetcloth/bullet/PackedNodes.h"
 #include "bullet_wetcloth/solver/ClothSolver.h"
+#include "bullet_wetcloth/solver/GuardExemptions.h"
 #include "bullet_wetcloth/solver/GuardMesh.h"
 #include "bullet_wetcloth/solver/GuardPairs.h"
 #include "bullet_wetcloth/solver/GuardTiles.h"
@@ -33,7 +34,9 @@ class ClothGuard {
   };
 
   /// Before the first small step of a step: nodes stand where they were at its end, and pins where they come from.
-  void begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters);
+  /// @param exemptions  of pairs, which outlive the step; or null
+  void begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters,
+             const GuardExemptions* exemptions = nullptr);
   /// After each small step.
   void hold();
 
@@ -56,6 +59,7 @@ class ClothGuard {
   std::vector<Cloth> m_cloths;
   std::vector<std::size_t> m_first;  // of each cloth's nodes among all
   ClothSolver::Guard m_parameters;
+  const GuardExemptions* m_exemptions = nullptr;
   ClothSolver::GuardTotals m_totals;
   GuardTiles m_tiles;
   GuardPairs m_pairs;

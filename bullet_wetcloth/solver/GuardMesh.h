@@ -49,7 +49,8 @@ struct GuardMesh {
   int rows = 0;
   int tileColumns = 0;
   int tileRows = 0;
-  double edgeLength = 0;  ///< mean at rest [m]
+  double edgeLength = 0;    ///< mean at rest [m]
+  bool isOfBodies = false;  ///< of rigid ones, which nobody keeps from each other
 
   bool isGrid() const { return columns > 0; }
 };

@@ -199,6 +199,14 @@ bool GuardTiles::isFlat(const Cloth& cloth, int tileA, int tileB) const {
   return bounds.areOfASheetThatCannotMeetItself();
 }
 
+bool GuardTiles::isWanted(const Scope& scope, std::size_t tileA, std::size_t tileB) const {
+  const std::size_t a = m_tiles[tileA].cloth;
+  const std::size_t b = m_tiles[tileB].cloth;
+  const bool isOfBodies[2] = {m_cloths[a].mesh->isOfBodies, m_cloths[b].mesh->isOfBodies};
+  if (isOfBodies[0] || isOfBodies[1]) return isOfBodies[0] != isOfBodies[1];
+  return a == b ? scope.self : scope.others;
+}
+
 void GuardTiles::findPairs(const GuardNodes& nodes, const Expectation& expectation, const Scope& scope,
                            GuardCandidates& pairs) {
   m_nodes = &nodes;
@@ -213,7 +221,7 @@ void GuardTiles::findPairs(const GuardNodes& nodes, const Expectation& expectati
   for (std::size_t a = 0; a < m_tiles.size(); ++a) {
     for (std::size_t b = a; b < m_tiles.size(); ++b) {
       const bool isSelf = m_tiles[a].cloth == m_tiles[b].cloth;
-      if (!(isSelf ? scope.self : scope.others) || !m_boxes[a].overlaps(m_boxes[b])) continue;
+      if (!isWanted(scope, a, b) || !m_boxes[a].overlaps(m_boxes[b])) continue;
       if (isSelf &&
           (m_isFlat[m_tiles[a].cloth] || isFlat(m_cloths[m_tiles[a].cloth], m_tiles[a].index, m_tiles[b].index))) {
         continue;

@@ -26,7 +26,7 @@ class GuardTiles {
     btScalar slack;
     btScalar near;
   };
-  /// Which pairs.
+  /// Which pairs; those with rigid bodies are wanted where there are any.
   struct Scope {
     bool self;
     bool others;
@@ -59,6 +59,7 @@ class GuardTiles {
     int firstColumn, lastColumn;
   };
 
+  bool isWanted(const Scope& scope, std::size_t tileA, std::size_t tileB) const;
   void findEnds();
   void include(int node, GuardBox& box) const;
   void includeVector(int from, int to, GuardBox& box) const;

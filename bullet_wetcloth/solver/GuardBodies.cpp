@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Zlib
+#include "bullet_wetcloth/solver/GuardBodies.h"
+
+#include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/solver/HullCrossing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+// How deep in a body what the guard has kept outside may be, in roundings of a place.
+constexpr double kRoundingsInside = 16;
+
+BodyPoint placeOf(const ClothGuard::Cloth& cloth, std::size_t slot, const BodyPoint& origin) {
+  BodyPoint place = bodyPointOf(cloth.origin);
+  for (std::size_t k = 0; k < 3; ++k) place[k] += static_cast<double>(cloth.nodes.position[k][slot]) - origin[k];
+  return place;
+}
+
+BodyBox moved(BodyBox box, const BodyPoint& by) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] += by[k];
+    box.high[k] += by[k];
+  }
+  return box;
+}
+
+double lengthOf(const BodyPoint& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+// Of the body's frame, what may come into a box on the way from one pose to the other.
+BodyBox sweptInto(const BodyWays::Body& body, const BodyPose& from, const BodyPose& to, const BodyBox& box) {
+  BodyBox result = boxInto(from, box);
+  result.include(boxInto(to, box));
+  double farthest = 0;
+  for (unsigned k = 0; k < 8; ++k) farthest = std::max(farthest, lengthOf(result.corner(k)));
+  const double turn = static_cast<double>(std::fabs(body.from.getRotation().angleShortestPath(body.to.getRotation())));
+  result.grow(turn * turn * farthest);
+  return result;
+}
+
+}  // namespace
+
+// --- where the cloths are -------------------------------------------------------------------------------------------
+
+BodyBox GuardBodies::boxOf(const Cloth& cloth) const {
+  BodyBox box;
+  for (int node = 0; node < cloth.guarded.nodeCount; ++node) {
+    box.include(placeOf(cloth.guarded, toSize(cloth.guarded.slots[node]), m_origin));
+  }
+  return box;
+}
+
+void GuardBodies::bound(const std::vector<Cloth>& cloths) {
+  m_near.clear();
+  for (const Cloth& cloth : cloths) {
+    const MovingNodes& nodes = cloth.guarded.nodes;
+    BodyBox box = boxOf(cloth);
+    double fastest = 0;
+    for (int node = 0; node < cloth.guarded.nodeCount; ++node) {
+      const std::size_t slot = toSize(cloth.guarded.slots[node]);
+      BodyPoint place = placeOf(cloth.guarded, slot, m_origin);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double way = static_cast<double>(nodes.velocity[k][slot]) * m_dt;
+        fastest = std::max(fastest, std::fabs(way));
+        place[k] += way;
+      }
+      box.include(place);
+    }
+    const double fall = static_cast<double>(cloth.body->m_worldInfo->m_gravity.length()) * m_dt * m_dt;
+    const double reach = m_thickness + cloth.guarded.mesh->edgeLength + fastest + fall;
+    Near near = {box, box};
+    near.box.grow(reach / 2);
+    near.room.grow(reach);
+    m_near.push_back(near);
+  }
+}
+
+bool GuardBodies::covers(const std::vector<Cloth>& cloths) const {
+  for (std::size_t k = 0; k < cloths.size(); ++k) {
+    if (!m_near[k].box.contains(boxOf(cloths[k]))) return false;
+  }
+  return true;
+}
+
+double GuardBodies::roundingOf(const BodyBox& box) const {
+  double farthest = 0;
+  for (std::size_t k = 0; k < 3; ++k) farthest = std::max({farthest, std::fabs(box.low[k]), std::fabs(box.high[k])});
+  return farthest * std::max(static_cast<double>(std::numeric_limits<btScalar>::epsilon()), 1e-12);
+}
+
+// --- the bodies -----------------------------------------------------------------------------------------------------
+
+void GuardBodies::begin(const std::vector<Cloth>& cloths, double thickness, btScalar dt) {
+  m_thickness = thickness;
+  m_dt = static_cast<double>(dt);
+  m_origin = bodyPointOf(cloths.front().guarded.origin);
+  bound(cloths);
+  m_places.clear();
+  for (std::size_t k = 0; k < cloths.size(); ++k) {
+    m_places.push_back({cloths[k].body, moved(m_near[k].room, m_origin)});
+  }
+  m_ways.find(m_places, dt);
+  m_exemptions.clear();
+  m_inside = 0;
+  gather(cloths, 0);
+}
+
+void GuardBodies::gather(const std::vector<Cloth>& cloths, double share) {
+  if (share > 0) bound(cloths);
+  int firstOfBodies = 0;
+  BodyBox around;
+  for (std::size_t k = 0; k < cloths.size(); ++k) {
+    firstOfBodies += cloths[k].guarded.nodeCount;
+    around.include(m_near[k].room);
+  }
+  m_exemptions.clearNodes(firstOfBodies);
+  m_mesh.clear();
+  for (std::size_t k = 0; k < m_ways.bodies().size(); ++k) {
+    const BodyWays::Body& body = m_ways.bodies()[k];
+    const BodyPose from(body.from, m_origin);
+    const BodyPose to(body.to, m_origin);
+    m_boxes.clear();
+    for (std::size_t c = 0; c < cloths.size(); ++c) {
+      if (BodyWays::collide(*cloths[c].body, *body.object)) {
+        m_boxes.push_back(sweptInto(body, from, to, m_near[c].room));
+      }
+    }
+    m_faces.find(*body.object->getCollisionShape(), m_boxes, sweptInto(body, from, to, around), m_hulls);
+    m_mesh.add(m_faces, from, to);
+    m_exemptions.addNodes(static_cast<int>(k), m_faces.corners().size());
+    if (share == 0) exempt(cloths, k, from);
+  }
+  m_mesh.finish();
+  m_exemptions.sort();
+  const std::size_t count = (m_mesh.nodes() + NodeSlots::kLanes - 1) / NodeSlots::kLanes * NodeSlots::kLanes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    m_position[axis].assign(count, 0);
+    m_other[axis].assign(count, 0);
+  }
+  m_inverseMass.assign(count, 0);
+  for (std::size_t k = m_slots.size(); k < m_mesh.nodes(); ++k) m_slots.push_back(static_cast<int>(k));
+  go(share);
+}
+
+void GuardBodies::go(double share) {
+  for (std::size_t node = 0; node < m_mesh.nodes(); ++node) {
+    const BodyPoint& from = m_mesh.from()[node];
+    const BodyPoint& to = m_mesh.to()[node];
+    for (std::size_t k = 0; k < 3; ++k) {
+      m_position[k][node] = static_cast<btScalar>(share < 1 ? from[k] + share * (to[k] - from[k]) : to[k]);
+    }
+  }
+}
+
+void GuardBodies::end() {
+  m_ways.end();
+  m_hulls.endStep();
+}
+
+ClothGuard::Cloth GuardBodies::guarded() {
+  MovingNodes nodes = {m_inverseMass.size(), {}, {}, {}, m_inverseMass.data(), {}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    nodes.position[axis] = m_position[axis].data();
+    nodes.predicted[axis] = nodes.velocity[axis] = m_other[axis].data();
+  }
+  const btVector3 origin(static_cast<btScalar>(m_origin[0]), static_cast<btScalar>(m_origin[1]),
+                         static_cast<btScalar>(m_origin[2]));
+  return {&m_mesh.mesh(), nodes, m_slots.data(), static_cast<int>(m_mesh.nodes()), origin};
+}
+
+// --- what is not kept from a body -----------------------------------------------------------------------------------
+
+void GuardBodies::exempt(const std::vector<Cloth>& cloths, std::size_t body, const BodyPose& pose) {
+  const btCollisionObject& object = *m_ways.bodies()[body].object;
+  int firstNode = 0;
+  for (const Cloth& cloth : cloths) {
+    if (BodyWays::collide(*cloth.body, object)) {
+      for (int k = 0; k < cloth.body->m_anchors.size(); ++k) {
+        const btSoftBody::Anchor& anchor = cloth.body->m_anchors[k];
+        if (anchor.m_body != &object) continue;
+        m_exemptions.add(firstNode + nodeIndex(*cloth.body, anchor.m_node), static_cast<int>(body));
+      }
+      for (const ShapeFaces::Hull& hull : m_faces.hulls()) exemptWhatStandsIn(cloth, firstNode, body, hull, pose);
+    } else {
+      for (int k = 0; k < cloth.guarded.nodeCount; ++k) m_exemptions.add(firstNode + k, static_cast<int>(body));
+    }
+    firstNode += cloth.guarded.nodeCount;
+  }
+}
+
+void GuardBodies::exemptWhatStandsIn(const Cloth& cloth, int firstNode, std::size_t body, const ShapeFaces::Hull& hull,
+                                     const BodyPose& pose) {
+  const BodyBox hullBox = boxOutOf(pose, boxOutOf(hull.pose, hull.hull->box));
+  const BodyBox clothBox = boxOf(cloth);
+  if (!clothBox.overlaps(hullBox)) return;
+  HullCrossing crossing(*hull.hull, kRoundingsInside * roundingOf(clothBox));
+  for (const GuardMesh::Face& face : cloth.guarded.mesh->faces) {
+    std::array<BodyPoint, 3> places;
+    BodyBox box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      places[k] = placeOf(cloth.guarded, toSize(cloth.guarded.slots[face.node[k]]), m_origin);
+      box.include(places[k]);
+    }
+    if (!box.overlaps(hullBox)) continue;
+    for (BodyPoint& place : places) place = hull.pose.into(pose.into(place));
+    if (!crossing.isIn(places)) continue;
+    for (const int node : face.node) m_exemptions.add(firstNode + node, static_cast<int>(body));
+    m_inside += 1;
+  }
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
