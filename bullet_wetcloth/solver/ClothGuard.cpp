@@ -86,6 +86,7 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
     if (cloth.mesh->edgeLength > 0) edge = std::min(edge, cloth.mesh->edgeLength);
   }
   m_nodes.resize(count);
+  m_nodes.setBodies(cloths.back().mesh->isOfBodies ? m_first.back() : count);
   m_edge = static_cast<btScalar>(edge);
   m_contact.thickness = static_cast<btScalar>(std::min(parameters.thickness, kThicknessOfEdge * edge));
   m_contact.friction = static_cast<btScalar>(parameters.friction);
@@ -161,6 +162,7 @@ void ClothGuard::enforce() {
 
 void ClothGuard::forgetAside() {
   for (GuardNodes::Place& aside : m_nodes.aside) aside = {};
+  for (GuardNodes::Place& recoil : m_nodes.recoil) recoil = {};
 }
 
 // What moved nodes aside has changed where they would be without links and contacts, and so no velocity.

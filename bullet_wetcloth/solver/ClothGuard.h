@@ -39,6 +39,8 @@ class ClothGuard {
              const GuardExemptions* exemptions = nullptr);
   /// After each small step.
   void hold();
+  /// What the nodes of bodies have pushed since then: see GuardNodes.
+  const std::vector<GuardNodes::Place>& recoil() const { return m_nodes.recoil; }
 
   const ClothSolver::GuardTotals& totals() const { return m_totals; }
   void resetTotals() { m_totals = {}; }

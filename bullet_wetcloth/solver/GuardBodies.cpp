@@ -4,6 +4,8 @@
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/solver/HullCrossing.h"
 
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,6 +17,10 @@ namespace {
 
 // How deep in a body what the guard has kept outside may be, in roundings of a place.
 constexpr double kRoundingsInside = 16;
+// With which what a body has stretched pushes it out, at most [m/s].
+constexpr btScalar kPushedOut = btScalar(0.5);
+// And it does not begin to turn faster than corners that go straight can show, in a step [rad].
+constexpr btScalar kMostTurn = btScalar(0.5);
 
 BodyPoint placeOf(const ClothGuard::Cloth& cloth, std::size_t slot, const BodyPoint& origin) {
   BodyPoint place = bodyPointOf(cloth.origin);
@@ -31,6 +37,14 @@ BodyBox moved(BodyBox box, const BodyPoint& by) {
 }
 
 double lengthOf(const BodyPoint& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+// From the centre of mass to what is farthest.
+btScalar radiusOf(const btCollisionShape& shape) {
+  btVector3 centre;
+  btScalar radius = 0;
+  shape.getBoundingSphere(centre, radius);
+  return centre.length() + radius;
+}
 
 // Of the body's frame, what may come into a box on the way from one pose to the other.
 BodyBox sweptInto(const BodyWays::Body& body, const BodyPose& from, const BodyPose& to, const BodyBox& box) {
@@ -106,6 +120,7 @@ void GuardBodies::begin(const std::vector<Cloth>& cloths, double thickness, btSc
   }
   m_ways.find(m_places, dt);
   m_exemptions.clear();
+  m_shares.clear();
   m_inside = 0;
   gather(cloths, 0);
 }
@@ -131,7 +146,10 @@ void GuardBodies::gather(const std::vector<Cloth>& cloths, double share) {
       }
     }
     m_faces.find(*body.object->getCollisionShape(), m_boxes, sweptInto(body, from, to, around), m_hulls);
+    if (share == 0) m_shares.push_back({0, 0, btVector3(0, 0, 0), btVector3(0, 0, 0), 0});
+    m_shares[k].firstNode = m_mesh.nodes();
     m_mesh.add(m_faces, from, to);
+    m_shares[k].endNode = m_mesh.nodes();
     m_exemptions.addNodes(static_cast<int>(k), m_faces.corners().size());
     if (share == 0) exempt(cloths, k, from);
   }
@@ -157,7 +175,57 @@ void GuardBodies::go(double share) {
   }
 }
 
+// A push is what a body gets that does not give way. This one gains no more along it than what makes it go with the
+// cloth; and what pulls a cloth back that it has stretched in one step does not throw it.
+void GuardBodies::slow(const std::vector<GuardNodes::Place>& recoil, double share, btScalar h) {
+  const btVector3 origin = guarded().origin;
+  for (std::size_t k = 0; k < m_shares.size(); ++k) {
+    const BodyWays::Body& body = m_ways.bodies()[k];
+    const btRigidBody* const rigid = btRigidBody::upcast(body.object);
+    if (!rigid || rigid->isStaticOrKinematicObject() || !(rigid->getInvMass() > 0)) continue;
+    Share& total = m_shares[k];
+    const Share gained = m_shares[k];
+    const auto hasPush = [](const GuardNodes::Place& push) { return push.at[3] > 0; };
+    const auto pushes =
+        static_cast<btScalar>(std::count_if(recoil.begin() + static_cast<std::ptrdiff_t>(gained.firstNode),
+                                            recoil.begin() + static_cast<std::ptrdiff_t>(gained.endNode), hasPush));
+    const btVector3 centre = body.from.getOrigin().lerp(body.to.getOrigin(), static_cast<btScalar>(share)) - origin;
+    const btScalar radius = radiusOf(*body.object->getCollisionShape());
+    for (std::size_t i = gained.firstNode; i < gained.endNode; ++i) {
+      const btVector3 push(recoil[i].at[0], recoil[i].at[1], recoil[i].at[2]);
+      const btScalar size = push.length();
+      if (!(size > 0)) continue;
+      const btVector3 along = push / size;
+      const btVector3 arm = btVector3(m_position[0][i], m_position[1][i], m_position[2][i]) - centre;
+      const btVector3 turn = rigid->getInvInertiaTensorWorld() * arm.cross(along);
+      const btScalar yield = rigid->getInvMass() + turn.dot(arm.cross(along));
+      const auto speed = [&](const btVector3& velocity, const btVector3& turning) {
+        return (velocity + turning.cross(arm)).dot(along);
+      };
+      const btScalar gain = speed(gained.velocity, gained.turning);
+      const btScalar own = speed(rigid->getLinearVelocity(), rigid->getAngularVelocity());
+      const btScalar met = recoil[i].at[3] / (size * h);
+      const btScalar wanted = std::min(met, kPushedOut - own) - gain;
+      const btScalar impulse = std::min(size / h, wanted / (yield * pushes));
+      if (!(impulse > 0)) continue;
+      total.velocity += along * (impulse * rigid->getInvMass());
+      total.turning += turn * impulse;
+      total.most = std::max(total.most, std::min(wanted / radius, kMostTurn / static_cast<btScalar>(m_dt)));
+    }
+  }
+}
+
 void GuardBodies::end() {
+  for (std::size_t k = 0; k < m_shares.size(); ++k) {
+    Share& gained = m_shares[k];
+    if (gained.velocity.isZero() && gained.turning.isZero()) continue;
+    const btScalar turning = gained.turning.length();
+    if (turning > gained.most) gained.turning *= gained.most / turning;
+    auto& rigid = *const_cast<btRigidBody*>(btRigidBody::upcast(m_ways.bodies()[k].object));
+    rigid.setLinearVelocity(rigid.getLinearVelocity() + gained.velocity * rigid.getLinearFactor());
+    rigid.setAngularVelocity(rigid.getAngularVelocity() + gained.turning * rigid.getAngularFactor());
+    rigid.activate();
+  }
   m_ways.end();
   m_hulls.endStep();
 }

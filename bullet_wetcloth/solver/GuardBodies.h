@@ -37,6 +37,8 @@ class GuardBodies {
   bool isEmpty() const { return m_mesh.nodes() == 0; }
   /// Puts all corners where they are after this share of the step.
   void go(double share);
+  /// After a small step of h [s]: what the corners have pushed, see GuardNodes, slows bodies in the next step.
+  void slow(const std::vector<GuardNodes::Place>& recoil, double share, btScalar h);
   /// After the last small step.
   void end();
   /// As if it had seen no step yet.
@@ -60,7 +62,17 @@ class GuardBodies {
                           const BodyPose& pose);
   double roundingOf(const BodyBox& box) const;
 
+  // Of a body, in this step.
+  struct Share {
+    std::size_t firstNode;
+    std::size_t endNode;
+    btVector3 velocity;  // that it gains [m/s]
+    btVector3 turning;   // [rad/s]
+    btScalar most = 0;   // that it may turn by [rad/s]
+  };
+
   BodyWays m_ways;
+  std::vector<Share> m_shares;  // of each body
   ConvexHulls m_hulls;
   ShapeFaces m_faces;
   BodyMesh m_mesh;

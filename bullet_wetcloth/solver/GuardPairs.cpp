@@ -297,6 +297,8 @@ void GuardPairs::keepApart(const GuardPlanes& planes, std::size_t plane, GuardNo
   for (int k = 0; k < 4; ++k) {
     const std::size_t i = toSize(planes.node(plane, k));
     shift(nodes.to[i], move, planes.weight(plane, k) * nodes.inverseMass[i] / yield);
+    const int node = planes.node(plane, k);
+    if (nodes.isOfBodies(node)) nodes.addRecoil(node, move * (-planes.weight(plane, k) / yield), missing);
   }
 }
 
@@ -311,6 +313,9 @@ void GuardPairs::keepSides(const GuardPlanes& planes, std::size_t plane, GuardNo
   const btVector3 normal = planes.normal(plane);
   shift(nodes.to[a], normal, missing * nodes.inverseMass[a] / yield);
   shift(nodes.to[b], normal, -missing * nodes.inverseMass[b] / yield);
+  const btVector3 push = normal * (missing / yield);
+  if (nodes.isOfBodies(static_cast<int>(a))) nodes.addRecoil(static_cast<int>(a), -push, missing);
+  if (nodes.isOfBodies(static_cast<int>(b))) nodes.addRecoil(static_cast<int>(b), push, missing);
 }
 
 // --- what is left ---------------------------------------------------------------------------------------------------
@@ -331,7 +336,7 @@ bool GuardPairs::slow(GuardNodes& nodes, bool asOne) {
   };
   forEachViolated([&](const GuardPlanes& planes, std::size_t plane, btScalar) {
     isViolatedAnywhere = true;
-    m_groups.join({planes.node(plane, 0), planes.node(plane, 1), planes.node(plane, 2), planes.node(plane, 3)});
+    m_groups.join(nodes, planes, plane);
   });
   if (!isViolatedAnywhere) return false;
   m_groups.measure(nodes);
@@ -339,7 +344,7 @@ bool GuardPairs::slow(GuardNodes& nodes, bool asOne) {
     const double before = static_cast<double>(planes.gap(plane));
     const double wanted = static_cast<double>(wantedGapOf(planes.gap(plane)));
     const double share = asOne ? 0 : kOfTheWay * (before - wanted) / (before - static_cast<double>(gap));
-    m_groups.limit(planes.node(plane, 0), std::max(share, 0.0));
+    m_groups.limit(nodes, planes, plane, std::max(share, 0.0));
   });
   m_groups.apply(nodes);
   return true;
