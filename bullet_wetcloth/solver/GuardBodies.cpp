@@ -46,6 +46,10 @@ btScalar radiusOf(const btCollisionShape& shape) {
   return centre.length() + radius;
 }
 
+double turnOf(const BodyWays::Body& body) {
+  return static_cast<double>(std::fabs(body.from.getRotation().angleShortestPath(body.to.getRotation())));
+}
+
 // Of the body's frame, what may come into a box on the way from one pose to the other.
 BodyBox sweptInto(const BodyWays::Body& body, const BodyPose& from, const BodyPose& to, const BodyBox& box) {
   BodyBox result = boxInto(from, box);
@@ -113,6 +117,8 @@ void GuardBodies::begin(const std::vector<Cloth>& cloths, double thickness, btSc
   m_thickness = thickness;
   m_dt = static_cast<double>(dt);
   m_origin = bodyPointOf(cloths.front().guarded.origin);
+  m_edge = std::numeric_limits<double>::infinity();
+  for (const Cloth& cloth : cloths) m_edge = std::min(m_edge, cloth.guarded.mesh->edgeLength);
   bound(cloths);
   m_places.clear();
   for (std::size_t k = 0; k < cloths.size(); ++k) {
@@ -146,6 +152,7 @@ void GuardBodies::gather(const std::vector<Cloth>& cloths, double share) {
       }
     }
     m_faces.find(*body.object->getCollisionShape(), m_boxes, sweptInto(body, from, to, around), m_hulls);
+    m_faces.refine(std::max(m_edge, m_thickness / std::max(turnOf(body), 1e-9)));
     if (share == 0) m_shares.push_back({0, 0, btVector3(0, 0, 0), btVector3(0, 0, 0), 0});
     m_shares[k].firstNode = m_mesh.nodes();
     m_mesh.add(m_faces, from, to);
@@ -205,12 +212,14 @@ void GuardBodies::slow(const std::vector<GuardNodes::Place>& recoil, double shar
       const btScalar gain = speed(gained.velocity, gained.turning);
       const btScalar own = speed(rigid->getLinearVelocity(), rigid->getAngularVelocity());
       const btScalar met = recoil[i].at[3] / (size * h);
+      const btScalar stopped = std::min(met, -own) - gain;
       const btScalar wanted = std::min(met, kPushedOut - own) - gain;
-      const btScalar impulse = std::min(size / h, wanted / (yield * pushes));
-      if (!(impulse > 0)) continue;
-      total.velocity += along * (impulse * rigid->getInvMass());
-      total.turning += turn * impulse;
-      total.most = std::max(total.most, std::min(wanted / radius, kMostTurn / static_cast<btScalar>(m_dt)));
+      const auto impulseFor = [&](btScalar change) {
+        return std::max(std::min(size / h, change / (yield * pushes)), btScalar(0));
+      };
+      total.velocity += along * (impulseFor(wanted) * rigid->getInvMass());
+      total.turning += turn * impulseFor(stopped);
+      total.most = std::max(total.most, std::min(stopped / radius, kMostTurn / static_cast<btScalar>(m_dt)));
     }
   }
 }

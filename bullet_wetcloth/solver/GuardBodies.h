@@ -79,6 +79,7 @@ class GuardBodies {
   GuardExemptions m_exemptions;
   BodyPoint m_origin = {0, 0, 0};  // of the guard [m]
   double m_thickness = 0;
+  double m_edge = 0;  // of the finest cloth, the mean [m]
   double m_dt = 0;
   long long m_inside = 0;
   std::vector<Near> m_near;  // of each cloth

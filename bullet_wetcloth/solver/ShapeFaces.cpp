@@ -166,18 +166,23 @@ void ShapeFaces::addMesh(const btCollisionShape& shape, const BodyPose& pose) {
   addMeshFaces();
 }
 
-// Corners at one place are one corner, and what several boxes have found is there once.
-void ShapeFaces::weldMesh() {
-  m_order.resize(m_soup.size());
+// Of each point: the first at the same place.
+void ShapeFaces::weld(const std::vector<BodyPoint>& points) {
+  m_order.resize(points.size());
   std::iota(m_order.begin(), m_order.end(), 0);
   std::sort(m_order.begin(), m_order.end(), [&](int a, int b) {
-    return m_soup[toSize(a)] != m_soup[toSize(b)] ? m_soup[toSize(a)] < m_soup[toSize(b)] : a < b;
+    return points[toSize(a)] != points[toSize(b)] ? points[toSize(a)] < points[toSize(b)] : a < b;
   });
-  m_welded.resize(m_soup.size());
+  m_welded.resize(points.size());
   for (std::size_t k = 0; k < m_order.size(); ++k) {
-    const bool isNew = k == 0 || m_soup[toSize(m_order[k])] != m_soup[toSize(m_order[k - 1])];
+    const bool isNew = k == 0 || points[toSize(m_order[k])] != points[toSize(m_order[k - 1])];
     m_welded[toSize(m_order[k])] = isNew ? m_order[k] : m_welded[toSize(m_order[k - 1])];
   }
+}
+
+// Corners at one place are one corner, and what several boxes have found is there once.
+void ShapeFaces::weldMesh() {
+  weld(m_soup);
   m_triangles.clear();
   for (std::size_t k = 0; k + 2 < m_soup.size(); k += 3) {
     const std::array<int, 3> triangle = {m_welded[k], m_welded[k + 1], m_welded[k + 2]};
@@ -213,6 +218,53 @@ void ShapeFaces::addMeshFaces() {
     }
     m_faces.push_back(face);
   }
+}
+
+// --- what is too large -----------------------------------------------------------------------------------------------
+
+void ShapeFaces::refine(double longest) {
+  const std::size_t corners = m_corners.size();
+  for (std::size_t face = 0; face < m_faces.size();) {
+    std::size_t side = 0;
+    double length = 0;
+    BodyBox box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const BodyPoint& a = m_corners[toSize(m_faces[face].corner[k])];
+      BodyBox of;
+      of.include(a);
+      of.include(m_corners[toSize(m_faces[face].corner[(k + 1) % 3])]);
+      box.include(of);
+      if (lengthOf(of) <= length) continue;
+      length = lengthOf(of);
+      side = k;
+    }
+    if (!(length > longest)) {
+      ++face;
+    } else if (isNear(box)) {
+      halve(face, side);
+    } else {
+      m_faces[face] = m_faces.back();
+      m_faces.pop_back();
+    }
+  }
+  if (m_corners.size() == corners) return;
+  weld(m_corners);
+  for (Face& face : m_faces) {
+    for (int& corner : face.corner) corner = m_welded[toSize(corner)];
+  }
+}
+
+void ShapeFaces::halve(std::size_t face, std::size_t side) {
+  const Face whole = m_faces[face];
+  const std::size_t next = (side + 1) % 3;
+  const std::size_t last = (side + 2) % 3;
+  const BodyPoint& a = m_corners[toSize(whole.corner[side])];
+  const BodyPoint& b = m_corners[toSize(whole.corner[next])];
+  const int middle = static_cast<int>(m_corners.size());
+  m_corners.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
+  m_faces[face] = {{whole.corner[side], middle, whole.corner[last]}, {whole.isEdge[side], false, whole.isEdge[last]}};
+  m_faces.push_back(
+      {{middle, whole.corner[next], whole.corner[last]}, {whole.isEdge[side], whole.isEdge[next], false}});
 }
 
 // --- what reaches far -----------------------------------------------------------------------------------------------

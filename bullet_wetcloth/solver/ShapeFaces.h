@@ -30,6 +30,9 @@ class ShapeFaces {
   /// @param near    boxes in the body's frame: what meets none of them may be left out
   /// @param around  holds them all; what reaches far beyond it is cut there
   void find(const btCollisionShape& shape, const std::vector<BodyBox>& near, const BodyBox& around, ConvexHulls& hulls);
+  /// Halves faces until no side is longer than that [m]. A plane beside a face keeps what is near it from all of the
+  /// face, and where the body turns, from where far corners go.
+  void refine(double longest);
 
   const std::vector<BodyPoint>& corners() const { return m_corners; }
   const std::vector<Face>& faces() const { return m_faces; }
@@ -46,6 +49,8 @@ class ShapeFaces {
   void addHull(const ConvexHull& hull, const BodyPose& pose);
   void addMesh(const btCollisionShape& shape, const BodyPose& pose);
   void addPlane(const btCollisionShape& shape, const BodyPose& pose);
+  void weld(const std::vector<BodyPoint>& points);
+  void halve(std::size_t face, std::size_t side);
   void weldMesh();
   void addMeshFaces();
   bool isNear(const BodyBox& box) const;
@@ -61,7 +66,7 @@ class ShapeFaces {
   std::vector<Hull> m_hulls;
   std::vector<int> m_numbers;     // of a hull's corners here; -1: not here yet
   std::vector<BodyPoint> m_soup;  // three for each triangle of a mesh
-  std::vector<int> m_order;       // of these by place
+  std::vector<int> m_order;       // of points by place
   std::vector<int> m_welded;      // the first at each one's place
   std::vector<std::array<int, 3>> m_triangles;
   Polygon m_polygon;
