@@ -20,7 +20,7 @@ constexpr double kRoundingsInside = 16;
 // With which what a body has stretched pushes it out, at most [m/s].
 constexpr btScalar kPushedOut = btScalar(0.5);
 // And it does not begin to turn faster than corners that go straight can show, in a step [rad].
-constexpr btScalar kMostTurn = btScalar(0.5);
+constexpr btScalar kMostTurn = btScalar(0.1);
 
 BodyPoint placeOf(const ClothGuard::Cloth& cloth, std::size_t slot, const BodyPoint& origin) {
   BodyPoint place = bodyPointOf(cloth.origin);

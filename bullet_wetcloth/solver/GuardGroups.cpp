@@ -58,6 +58,17 @@ void GuardGroups::join(const GuardNodes& nodes, const GuardPlanes& planes, std::
   }
 }
 
+// Of the place of the body.
+double GuardGroups::wayOf(const Contact& contact, const GuardNodes& nodes, std::size_t axis) {
+  double way = 0;
+  for (int k = 0; k < contact.count; ++k) {
+    const std::size_t body = toSize(contact.bodyNode[k]);
+    way += static_cast<double>(contact.weight[k]) *
+           static_cast<double>(nodes.to[body].at[axis] - nodes.from[body].at[axis]);
+  }
+  return way;
+}
+
 void GuardGroups::measure(const GuardNodes& nodes) {
   for (const int node : m_members) m_groups[toSize(find(node))] = Group();
   for (const int node : m_members) {
@@ -67,13 +78,9 @@ void GuardGroups::measure(const GuardNodes& nodes) {
     Group& group = m_groups[toSize(find(node))];
     const std::size_t i = toSize(node);
     const Contact& contact = m_contacts[i];
-    for (int k = 0; k < contact.count; ++k) {
-      const std::size_t body = toSize(contact.bodyNode[k]);
-      const double weight = static_cast<double>(contact.weight[k]);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        group.sum[axis] += weight * static_cast<double>(nodes.to[body].at[axis] - nodes.from[body].at[axis]);
-      }
-      group.mass += weight;
+    if (contact.count > 0) {
+      for (std::size_t axis = 0; axis < 3; ++axis) group.sum[axis] += wayOf(contact, nodes, axis);
+      group.mass += 1;
     }
     if (group.isImposed && !nodes.isImposed(node)) continue;
     const double mass = group.isImposed ? 1 : 1 / static_cast<double>(nodes.inverseMass[i]);
@@ -91,7 +98,7 @@ void GuardGroups::limit(const GuardNodes& nodes, const GuardPlanes& planes, std:
   group.share = std::min(group.share, share);
 }
 
-void GuardGroups::apply(GuardNodes& nodes) {
+void GuardGroups::apply(GuardNodes& nodes, bool eachByItself) {
   for (const int node : m_members) {
     if (nodes.isImposed(node)) continue;
     Group& group = m_groups[toSize(find(node))];
@@ -99,7 +106,8 @@ void GuardGroups::apply(GuardNodes& nodes) {
     btVector3 change;
     for (int axis = 0; axis < 3; ++axis) {
       const std::size_t k = toSize(axis);
-      const double mean = group.sum[k] / group.mass;
+      const bool isByItself = eachByItself && m_contacts[i].count > 0;
+      const double mean = isByItself ? wayOf(m_contacts[i], nodes, k) : group.sum[k] / group.mass;
       const double way = static_cast<double>(nodes.to[i].at[k]) - static_cast<double>(nodes.from[i].at[k]);
       const btScalar place =
           static_cast<btScalar>(static_cast<double>(nodes.from[i].at[k]) + mean + group.share * (way - mean));

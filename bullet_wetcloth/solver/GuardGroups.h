@@ -27,8 +27,8 @@ class GuardGroups {
   void measure(const GuardNodes& nodes);
   /// Of the motion against the mean in this plane's group no more than this share is left, [0, 1].
   void limit(const GuardNodes& nodes, const GuardPlanes& planes, std::size_t plane, double share);
-  /// Moves the nodes.
-  void apply(GuardNodes& nodes);
+  /// Moves the nodes. @param eachByItself  what a body touches goes with that place, in place of the mean of all
+  void apply(GuardNodes& nodes, bool eachByItself);
   /// How many nodes are in groups.
   std::size_t size() const { return m_members.size(); }
 
@@ -49,6 +49,7 @@ class GuardGroups {
     int count = 0;       // of these; 0: none
   };
   int find(int node);
+  static double wayOf(const Contact& contact, const GuardNodes& nodes, std::size_t axis);
   void recoil(GuardNodes& nodes);
 
   std::vector<int> m_parent;  // of each node; -1: in no group

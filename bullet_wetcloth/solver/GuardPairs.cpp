@@ -232,7 +232,7 @@ GuardPairs::Outcome GuardPairs::enforce(GuardNodes& nodes) {
   }
   m_groups.clear(nodes.to.size());
   for (int k = 0; k < kSlowings; ++k) {
-    if (!slow(nodes, k >= kSlowingsInPart)) {
+    if (!slow(nodes, k)) {
       outcome.stopped = static_cast<long long>(m_groups.size());
       return outcome;
     }
@@ -321,8 +321,8 @@ void GuardPairs::keepSides(const GuardPlanes& planes, std::size_t plane, GuardNo
 // --- what is left ---------------------------------------------------------------------------------------------------
 
 // Returns whether something violated a plane, so that groups had to be slowed; those of earlier calls stay together.
-// @param asOne  no motion against the mean is left
-bool GuardPairs::slow(GuardNodes& nodes, bool asOne) {
+bool GuardPairs::slow(GuardNodes& nodes, int turn) {
+  const bool asOne = turn >= kSlowingsInPart;  // no motion against the mean is left
   bool isViolatedAnywhere = false;
   const auto forEachViolated = [&](const auto& action) {
     for (const GuardPlanes* const planes : {&m_vertexFace, &m_edgeEdge}) {
@@ -346,7 +346,7 @@ bool GuardPairs::slow(GuardNodes& nodes, bool asOne) {
     const double share = asOne ? 0 : kOfTheWay * (before - wanted) / (before - static_cast<double>(gap));
     m_groups.limit(nodes, planes, plane, std::max(share, 0.0));
   });
-  m_groups.apply(nodes);
+  m_groups.apply(nodes, asOne && turn < kSlowings / 2);
   return true;
 }
 

@@ -138,8 +138,7 @@ class BodyPassageCheck {
     std::vector<Place> places = m_places;
     for (int k = 0; k < m_cloth.m_nodes.size(); ++k) {
       for (int axis = 0; axis < 3; ++axis) {
-        places[std::size_t(k)][std::size_t(axis)] =
-            double(view.x[axis][view.slots[k]]) + double(view.origin[axis]);
+        places[std::size_t(k)][std::size_t(axis)] = double(view.x[axis][view.slots[k]]) + double(view.origin[axis]);
       }
     }
     putBodies((view.index + 1) / std::round(m_dt / double(view.length)), places);
@@ -158,8 +157,7 @@ class BodyPassageCheck {
 /// One cloth and some bodies, guarded against them or not.
 class BodyScene {
  public:
-  explicit BodyScene(bool isGuarded, const btVector3& gravity = kEarthGravity,
-                     WorldKind kind = WorldKind::softRigid)
+  explicit BodyScene(bool isGuarded, const btVector3& gravity = kEarthGravity, WorldKind kind = WorldKind::softRigid)
       : m_scene(kind, gravity, parametersOf(isGuarded)) {}
 
   template <class Source>

@@ -137,9 +137,8 @@ int countPassages(const PassageMesh& mesh, const std::vector<Place>& from, const
   static const ContinuousCheck judge(ContinuousCheck::hasExact() ? Tier::exact : Tier::conservative);
   std::vector<PassagePair> pairs = pairsThatComeNear(mesh, from, to);
   if (isWanted) {
-    pairs.erase(
-        std::remove_if(pairs.begin(), pairs.end(), [&](const PassagePair& pair) { return !isWanted(pair); }),
-        pairs.end());
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [&](const PassagePair& pair) { return !isWanted(pair); }),
+                pairs.end());
   }
   int count = 0;
   for (const Pair kind : {Pair::vertexFace, Pair::edgeEdge}) {
