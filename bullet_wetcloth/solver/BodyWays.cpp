@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/solver/BodyWays.h"
 
+#include "bullet_wetcloth/state/StateArchive.h"
+
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
@@ -98,6 +100,19 @@ bool BodyWays::collide(const btSoftBody& cloth, const btCollisionObject& object)
       cloth.m_worldInfo->m_broadphase->getOverlappingPairCache()->getOverlapFilterCallback();
   return filter ? filter->needBroadphaseCollision(const_cast<btBroadphaseProxy*>(a), const_cast<btBroadphaseProxy*>(b))
                 : passes;
+}
+
+void BodyWays::transferState(StateArchive& archive) {
+  const auto transfer = [&archive](Body& body) {
+    archive.object(body.object);
+    archive.value(body.to);
+  };
+  archive.growing(m_before, transfer, [&archive](const Body& body) { return archive.has(body.object); });
+  if (!archive.isRestoring()) return;
+  for (Body& body : m_before) {
+    const btBroadphaseProxy* const proxy = body.object ? body.object->getBroadphaseHandle() : nullptr;
+    body.proxy = proxy ? proxy->m_uniqueId : -1;
+  }
 }
 
 btTransform BodyWays::startOf(const btCollisionObject& object, int proxy, btScalar dt) const {

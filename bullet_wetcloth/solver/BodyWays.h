@@ -11,6 +11,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class StateArchive;
+
 /// The rigid bodies near cloths, and where each of them comes from in this step.
 ///
 /// When Bullet's world steps its soft bodies, the others have moved already. A body comes from where it was at the end
@@ -35,6 +37,8 @@ class BodyWays {
   /// Where they are now they come from in the next step.
   void end() { m_before.swap(m_bodies); }
   void forget() { m_before.clear(); }
+  /// Names what goes on from step to step: see StateArchive.
+  void transferState(StateArchive& archive);
 
   /// Whether Bullet lets these two collide.
   static bool collide(const btSoftBody& cloth, const btCollisionObject& object);

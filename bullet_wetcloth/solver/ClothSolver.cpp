@@ -228,6 +228,8 @@ void ClothSolver::transferState(StateArchive& archive, const btAlignedObjectArra
       m_impl->cloths.back()->cloth.transferState(archive);
     }
   }
+  const bool hasBodies = m_impl->parameters.guard && m_impl->parameters.guard->bodies;
+  if (hasBodies) archive.section("bodies near cloths", [&] { m_impl->bodies.transferState(archive); });
 }
 
 void ClothSolver::predictMotion(btScalar dt) {

@@ -43,6 +43,8 @@ class GuardBodies {
   void end();
   /// As if it had seen no step yet.
   void forget() { m_ways.forget(); }
+  /// Names what goes on from step to step: see StateArchive.
+  void transferState(StateArchive& archive) { m_ways.transferState(archive); }
 
   ClothGuard::Cloth guarded();
   const GuardExemptions& exemptions() const { return m_exemptions; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // With the guard's `bodies` no vertex of a cloth meets a face of a rigid body, no corner of the body a face of the
 // cloth, and no edge an edge, from small step to small step.
+#include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/solver/BodyScene.h"
 
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <ostream>
+#include <sstream>
 #include <string>
 
 namespace wetcloth_test::guard_bodies_test {
@@ -367,6 +369,36 @@ TEST(GuardBodies, OneKilometreFromTheOrigin) {
       EXPECT_GT(scene.passages(), 0);
     }
   }
+}
+
+// A needle falls on a cloth.
+struct Saved {
+  Saved() : scene(true) {
+    scene.add(frame());
+    dropNeedle(scene, 3);
+    wet = std::make_unique<wetcloth::WetClothWorld>(scene.scene().bullet().world());
+  }
+  std::string state() const {
+    std::ostringstream stream;
+    wet->save(stream);
+    return stream.str();
+  }
+  BodyScene scene;
+  std::unique_ptr<wetcloth::WetClothWorld> wet;
+};
+
+TEST(GuardBodies, ARestoredRunGoesOnBitForBit) {
+  Saved first;
+  first.scene.step(4);
+  const std::string saved = first.state();
+  first.scene.step(10);
+  Saved second;
+  std::istringstream stream(saved);
+  second.wet->restore(stream);
+  EXPECT_EQ(second.state(), saved);
+  second.scene.step(10);
+  EXPECT_TRUE(sameBits(stateOf(first.scene.cloth()), stateOf(second.scene.cloth())));
+  EXPECT_GT(first.scene.totals().pairs, 0);
 }
 
 // Nothing of a body that is not finite is taken.
