@@ -47,14 +47,14 @@ void ShapeFaces::find(const btCollisionShape& shape, const std::vector<BodyBox>&
   m_corners.clear();
   m_faces.clear();
   m_hulls.clear();
-  m_near = &near;
+  m_near = near;
   m_around = around;
   m_far = lengthOf(around);
   add(shape, btTransform::getIdentity(), hulls);
 }
 
 bool ShapeFaces::isNear(const BodyBox& box) const {
-  return std::any_of(m_near->begin(), m_near->end(), [&](const BodyBox& near) { return near.overlaps(box); });
+  return std::any_of(m_near.begin(), m_near.end(), [&](const BodyBox& near) { return near.overlaps(box); });
 }
 
 bool ShapeFaces::reachesFar(const BodyBox& box) const {
@@ -158,7 +158,7 @@ void ShapeFaces::addPlane(const btCollisionShape& shape, const BodyPose& pose) {
 void ShapeFaces::addMesh(const btCollisionShape& shape, const BodyPose& pose) {
   m_soup.clear();
   TriangleReader reader(pose, m_soup);
-  for (const BodyBox& near : *m_near) {
+  for (const BodyBox& near : m_near) {
     const BodyBox box = boxInto(pose, near);
     static_cast<const btConcaveShape&>(shape).processAllTriangles(&reader, bulletsOf(box.low), bulletsOf(box.high));
   }
@@ -189,7 +189,7 @@ void ShapeFaces::weldMesh() {
     const bool isOne = triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0];
     if (isOne) m_triangles.push_back(triangle);
   }
-  if (m_near->size() < 2) return;
+  if (m_near.size() < 2) return;
   std::sort(m_triangles.begin(), m_triangles.end());
   m_triangles.erase(std::unique(m_triangles.begin(), m_triangles.end()), m_triangles.end());
 }

@@ -58,7 +58,7 @@ class ShapeFaces {
   void addCut();
   void cut(std::size_t axis, double limit, bool isHigh);
 
-  const std::vector<BodyBox>* m_near = nullptr;
+  std::vector<BodyBox> m_near;
   BodyBox m_around;
   double m_far = 0;  // beyond the box around [m]
   std::vector<BodyPoint> m_corners;
