@@ -297,7 +297,7 @@ void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& so
     }
     if (hasBodies) bodies.go(static_cast<double>(k + 1) / count);
     guard.hold();
-    if (hasBodies) bodies.slow(guard.recoil(), static_cast<double>(k + 1) / count, dt / static_cast<btScalar>(count));
+    if (hasBodies) bodies.recoil(guard.recoil(), static_cast<double>(k + 1) / count, dt / static_cast<btScalar>(count));
     for (PackedCloth* const cloth : guarded) {
       if (k < cloth->smallSteps()) cloth->show(viewers, k);
     }

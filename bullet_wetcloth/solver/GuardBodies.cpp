@@ -2,9 +2,6 @@
 #include "bullet_wetcloth/solver/GuardBodies.h"
 
 #include "bullet_wetcloth/bullet/Index.h"
-#include "bullet_wetcloth/solver/HullCrossing.h"
-
-#include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +11,6 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 namespace {
-
-// How deep in a body what the guard has kept outside may be, in roundings of a place.
-constexpr double kRoundingsInside = 16;
-// With which what a body has stretched pushes it out, at most [m/s].
-constexpr btScalar kPushedOut = btScalar(0.5);
-// And it does not begin to turn faster than corners that go straight can show, in a step [rad].
-constexpr btScalar kMostTurn = btScalar(0.1);
 
 BodyPoint placeOf(const ClothGuard::Cloth& cloth, std::size_t slot, const BodyPoint& origin) {
   BodyPoint place = bodyPointOf(cloth.origin);
@@ -38,14 +28,6 @@ BodyBox moved(BodyBox box, const BodyPoint& by) {
 
 double lengthOf(const BodyPoint& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-// From the centre of mass to what is farthest.
-btScalar radiusOf(const btCollisionShape& shape) {
-  btVector3 centre;
-  btScalar radius = 0;
-  shape.getBoundingSphere(centre, radius);
-  return centre.length() + radius;
-}
-
 double turnOf(const BodyWays::Body& body) {
   return static_cast<double>(std::fabs(body.from.getRotation().angleShortestPath(body.to.getRotation())));
 }
@@ -56,7 +38,7 @@ BodyBox sweptInto(const BodyWays::Body& body, const BodyPose& from, const BodyPo
   result.include(boxInto(to, box));
   double farthest = 0;
   for (unsigned k = 0; k < 8; ++k) farthest = std::max(farthest, lengthOf(result.corner(k)));
-  const double turn = static_cast<double>(std::fabs(body.from.getRotation().angleShortestPath(body.to.getRotation())));
+  const double turn = turnOf(body);
   result.grow(turn * turn * farthest);
   return result;
 }
@@ -67,8 +49,18 @@ BodyBox sweptInto(const BodyWays::Body& body, const BodyPose& from, const BodyPo
 
 BodyBox GuardBodies::boxOf(const Cloth& cloth) const {
   BodyBox box;
-  for (int node = 0; node < cloth.guarded.nodeCount; ++node) {
-    box.include(placeOf(cloth.guarded, toSize(cloth.guarded.slots[node]), m_origin));
+  const BodyPoint origin = bodyPointOf(cloth.guarded.origin);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const btScalar* const places = cloth.guarded.nodes.position[axis];
+    btScalar low = std::numeric_limits<btScalar>::infinity();
+    btScalar high = -low;
+    for (int node = 0; node < cloth.guarded.nodeCount; ++node) {
+      const btScalar place = places[cloth.guarded.slots[node]];
+      low = std::min(low, place);
+      high = std::max(high, place);
+    }
+    box.low[axis] = static_cast<double>(low) + (origin[axis] - m_origin[axis]);
+    box.high[axis] = static_cast<double>(high) + (origin[axis] - m_origin[axis]);
   }
   return box;
 }
@@ -105,12 +97,6 @@ bool GuardBodies::covers(const std::vector<Cloth>& cloths) const {
   return true;
 }
 
-double GuardBodies::roundingOf(const BodyBox& box) const {
-  double farthest = 0;
-  for (std::size_t k = 0; k < 3; ++k) farthest = std::max({farthest, std::fabs(box.low[k]), std::fabs(box.high[k])});
-  return farthest * std::max(static_cast<double>(std::numeric_limits<btScalar>::epsilon()), 1e-12);
-}
-
 // --- the bodies -----------------------------------------------------------------------------------------------------
 
 void GuardBodies::begin(const std::vector<Cloth>& cloths, double thickness, btScalar dt) {
@@ -125,6 +111,8 @@ void GuardBodies::begin(const std::vector<Cloth>& cloths, double thickness, btSc
     m_places.push_back({cloths[k].body, moved(m_near[k].room, m_origin)});
   }
   m_ways.find(m_places, dt);
+  m_standing.clear();
+  for (const Cloth& cloth : cloths) m_standing.add(cloth.guarded, m_origin);
   m_exemptions.clear();
   m_shares.clear();
   m_inside = 0;
@@ -153,7 +141,7 @@ void GuardBodies::gather(const std::vector<Cloth>& cloths, double share) {
     }
     m_faces.find(*body.object->getCollisionShape(), m_boxes, sweptInto(body, from, to, around), m_hulls);
     m_faces.refine(std::max(m_edge, m_thickness / std::max(turnOf(body), 1e-9)));
-    if (share == 0) m_shares.push_back({0, 0, btVector3(0, 0, 0), btVector3(0, 0, 0), 0});
+    if (share == 0) m_shares.push_back({0, 0, BodyRecoil(*body.object, static_cast<btScalar>(m_dt))});
     m_shares[k].firstNode = m_mesh.nodes();
     m_mesh.add(m_faces, from, to);
     m_shares[k].endNode = m_mesh.nodes();
@@ -182,58 +170,32 @@ void GuardBodies::go(double share) {
   }
 }
 
-// A push is what a body gets that does not give way. This one gains no more along it than what makes it go with the
-// cloth; and what pulls a cloth back that it has stretched in one step does not throw it.
-void GuardBodies::slow(const std::vector<GuardNodes::Place>& recoil, double share, btScalar h) {
+void GuardBodies::recoil(const std::vector<GuardNodes::Place>& recoil, double share, btScalar h) {
   const btVector3 origin = guarded().origin;
   for (std::size_t k = 0; k < m_shares.size(); ++k) {
+    Share& of = m_shares[k];
+    if (!of.recoil.isNeeded()) continue;
     const BodyWays::Body& body = m_ways.bodies()[k];
-    const btRigidBody* const rigid = btRigidBody::upcast(body.object);
-    if (!rigid || rigid->isStaticOrKinematicObject() || !(rigid->getInvMass() > 0)) continue;
-    Share& total = m_shares[k];
-    const Share gained = m_shares[k];
-    const auto hasPush = [](const GuardNodes::Place& push) { return push.at[3] > 0; };
-    const auto pushes =
-        static_cast<btScalar>(std::count_if(recoil.begin() + static_cast<std::ptrdiff_t>(gained.firstNode),
-                                            recoil.begin() + static_cast<std::ptrdiff_t>(gained.endNode), hasPush));
     const btVector3 centre = body.from.getOrigin().lerp(body.to.getOrigin(), static_cast<btScalar>(share)) - origin;
-    const btScalar radius = radiusOf(*body.object->getCollisionShape());
-    for (std::size_t i = gained.firstNode; i < gained.endNode; ++i) {
-      const btVector3 push(recoil[i].at[0], recoil[i].at[1], recoil[i].at[2]);
-      const btScalar size = push.length();
-      if (!(size > 0)) continue;
-      const btVector3 along = push / size;
+    const auto first = recoil.begin() + static_cast<std::ptrdiff_t>(of.firstNode);
+    const auto end = recoil.begin() + static_cast<std::ptrdiff_t>(of.endNode);
+    const auto impulseOf = [h](const GuardNodes::Place& push) {
+      return btVector3(push.at[0], push.at[1], push.at[2]) / h;
+    };
+    const auto isPush = [&](const GuardNodes::Place& push) { return impulseOf(push).length2() > 0; };
+    of.recoil.beginSmallStep(static_cast<int>(std::count_if(first, end, isPush)));
+    for (std::size_t i = of.firstNode; i < of.endNode; ++i) {
+      if (!isPush(recoil[i])) continue;
       const btVector3 arm = btVector3(m_position[0][i], m_position[1][i], m_position[2][i]) - centre;
-      const btVector3 turn = rigid->getInvInertiaTensorWorld() * arm.cross(along);
-      const btScalar yield = rigid->getInvMass() + turn.dot(arm.cross(along));
-      const auto speed = [&](const btVector3& velocity, const btVector3& turning) {
-        return (velocity + turning.cross(arm)).dot(along);
-      };
-      const btScalar gain = speed(gained.velocity, gained.turning);
-      const btScalar own = speed(rigid->getLinearVelocity(), rigid->getAngularVelocity());
-      const btScalar met = recoil[i].at[3] / (size * h);
-      const btScalar stopped = std::min(met, -own) - gain;
-      const btScalar wanted = std::min(met, kPushedOut - own) - gain;
-      const auto impulseFor = [&](btScalar change) {
-        return std::max(std::min(size / h, change / (yield * pushes)), btScalar(0));
-      };
-      total.velocity += along * (impulseFor(wanted) * rigid->getInvMass());
-      total.turning += turn * impulseFor(stopped);
-      total.most = std::max(total.most, std::min(stopped / radius, kMostTurn / static_cast<btScalar>(m_dt)));
+      const btVector3 impulse = impulseOf(recoil[i]);
+      of.recoil.add(arm, impulse, recoil[i].at[3] / (impulse.length() * h * h));
     }
   }
 }
 
 void GuardBodies::end() {
-  for (std::size_t k = 0; k < m_shares.size(); ++k) {
-    Share& gained = m_shares[k];
-    if (gained.velocity.isZero() && gained.turning.isZero()) continue;
-    const btScalar turning = gained.turning.length();
-    if (turning > gained.most) gained.turning *= gained.most / turning;
-    auto& rigid = *const_cast<btRigidBody*>(btRigidBody::upcast(m_ways.bodies()[k].object));
-    rigid.setLinearVelocity(rigid.getLinearVelocity() + gained.velocity * rigid.getLinearFactor());
-    rigid.setAngularVelocity(rigid.getAngularVelocity() + gained.turning * rigid.getAngularFactor());
-    rigid.activate();
+  for (Share& share : m_shares) {
+    if (share.recoil.isNeeded()) share.recoil.apply();
   }
   m_ways.end();
   m_hulls.endStep();
@@ -255,39 +217,23 @@ ClothGuard::Cloth GuardBodies::guarded() {
 void GuardBodies::exempt(const std::vector<Cloth>& cloths, std::size_t body, const BodyPose& pose) {
   const btCollisionObject& object = *m_ways.bodies()[body].object;
   int firstNode = 0;
-  for (const Cloth& cloth : cloths) {
-    if (BodyWays::collide(*cloth.body, object)) {
-      for (int k = 0; k < cloth.body->m_anchors.size(); ++k) {
-        const btSoftBody::Anchor& anchor = cloth.body->m_anchors[k];
-        if (anchor.m_body != &object) continue;
-        m_exemptions.add(firstNode + nodeIndex(*cloth.body, anchor.m_node), static_cast<int>(body));
+  const auto add = [&](int node) { m_exemptions.add(firstNode + node, static_cast<int>(body)); };
+  for (std::size_t c = 0; c < cloths.size(); ++c) {
+    const btSoftBody& cloth = *cloths[c].body;
+    if (BodyWays::collide(cloth, object)) {
+      for (int k = 0; k < cloth.m_anchors.size(); ++k) {
+        if (cloth.m_anchors[k].m_body == &object) add(nodeIndex(cloth, cloth.m_anchors[k].m_node));
       }
-      for (const ShapeFaces::Hull& hull : m_faces.hulls()) exemptWhatStandsIn(cloth, firstNode, body, hull, pose);
+      for (const ShapeFaces::Hull& hull : m_faces.hulls()) {
+        m_standing.forEachIn(c, hull, pose, [&](const GuardMesh::Face& face) {
+          for (const int node : face.node) add(node);
+          ++m_inside;
+        });
+      }
     } else {
-      for (int k = 0; k < cloth.guarded.nodeCount; ++k) m_exemptions.add(firstNode + k, static_cast<int>(body));
+      for (int node = 0; node < cloths[c].guarded.nodeCount; ++node) add(node);
     }
-    firstNode += cloth.guarded.nodeCount;
-  }
-}
-
-void GuardBodies::exemptWhatStandsIn(const Cloth& cloth, int firstNode, std::size_t body, const ShapeFaces::Hull& hull,
-                                     const BodyPose& pose) {
-  const BodyBox hullBox = boxOutOf(pose, boxOutOf(hull.pose, hull.hull->box));
-  const BodyBox clothBox = boxOf(cloth);
-  if (!clothBox.overlaps(hullBox)) return;
-  HullCrossing crossing(*hull.hull, kRoundingsInside * roundingOf(clothBox));
-  for (const GuardMesh::Face& face : cloth.guarded.mesh->faces) {
-    std::array<BodyPoint, 3> places;
-    BodyBox box;
-    for (std::size_t k = 0; k < 3; ++k) {
-      places[k] = placeOf(cloth.guarded, toSize(cloth.guarded.slots[face.node[k]]), m_origin);
-      box.include(places[k]);
-    }
-    if (!box.overlaps(hullBox)) continue;
-    for (BodyPoint& place : places) place = hull.pose.into(pose.into(place));
-    if (!crossing.isIn(places)) continue;
-    for (const int node : face.node) m_exemptions.add(firstNode + node, static_cast<int>(body));
-    m_inside += 1;
+    firstNode += cloths[c].guarded.nodeCount;
   }
 }
 

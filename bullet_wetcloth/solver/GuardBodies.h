@@ -3,11 +3,13 @@
 
 #include "bullet_wetcloth/Precision.h"
 #include "bullet_wetcloth/solver/BodyMesh.h"
+#include "bullet_wetcloth/solver/BodyRecoil.h"
 #include "bullet_wetcloth/solver/BodyWays.h"
 #include "bullet_wetcloth/solver/ClothGuard.h"
 #include "bullet_wetcloth/solver/ConvexHulls.h"
 #include "bullet_wetcloth/solver/GuardExemptions.h"
 #include "bullet_wetcloth/solver/ShapeFaces.h"
+#include "bullet_wetcloth/solver/StandingFaces.h"
 
 #include <BulletSoftBody/btSoftBody.h>
 
@@ -38,7 +40,7 @@ class GuardBodies {
   /// Puts all corners where they are after this share of the step.
   void go(double share);
   /// After a small step of h [s]: what the corners have pushed, see GuardNodes, slows bodies in the next step.
-  void slow(const std::vector<GuardNodes::Place>& recoil, double share, btScalar h);
+  void recoil(const std::vector<GuardNodes::Place>& recoil, double share, btScalar h);
   /// After the last small step.
   void end();
   /// As if it had seen no step yet.
@@ -60,17 +62,12 @@ class GuardBodies {
   BodyBox boxOf(const Cloth& cloth) const;
   void bound(const std::vector<Cloth>& cloths);
   void exempt(const std::vector<Cloth>& cloths, std::size_t body, const BodyPose& pose);
-  void exemptWhatStandsIn(const Cloth& cloth, int firstNode, std::size_t body, const ShapeFaces::Hull& hull,
-                          const BodyPose& pose);
-  double roundingOf(const BodyBox& box) const;
 
   // Of a body, in this step.
   struct Share {
     std::size_t firstNode;
     std::size_t endNode;
-    btVector3 velocity;  // that it gains [m/s]
-    btVector3 turning;   // [rad/s]
-    btScalar most = 0;   // that it may turn by [rad/s]
+    BodyRecoil recoil;
   };
 
   BodyWays m_ways;
@@ -78,6 +75,7 @@ class GuardBodies {
   ConvexHulls m_hulls;
   ShapeFaces m_faces;
   BodyMesh m_mesh;
+  StandingFaces m_standing;
   GuardExemptions m_exemptions;
   BodyPoint m_origin = {0, 0, 0};  // of the guard [m]
   double m_thickness = 0;

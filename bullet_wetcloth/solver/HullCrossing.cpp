@@ -8,7 +8,7 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 double HullCrossing::outside(std::size_t plane, const BodyPoint& point) const {
-  const ConvexHull::Plane& p = m_hull.planes[plane];
+  const ConvexHull::Plane& p = m_hull->planes[plane];
   return p.normal[0] * point[0] + p.normal[1] * point[1] + p.normal[2] * point[2] - p.offset + m_depth;
 }
 
@@ -19,14 +19,14 @@ bool HullCrossing::isBeyond(std::size_t plane, const std::array<BodyPoint, 3>& t
 
 // What the planes leave of the triangle, one after the other.
 bool HullCrossing::isIn(const std::array<BodyPoint, 3>& triangle) {
-  if (m_hull.polygons() == 0 || isBeyond(m_last, triangle)) return false;
-  for (std::size_t plane = 0; plane < m_hull.polygons(); ++plane) {
+  if (m_hull->polygons() == 0 || isBeyond(m_last, triangle)) return false;
+  for (std::size_t plane = 0; plane < m_hull->polygons(); ++plane) {
     if (!isBeyond(plane, triangle)) continue;
     m_last = plane;
     return false;
   }
   m_polygon.assign(triangle.begin(), triangle.end());
-  for (std::size_t plane = 0; plane < m_hull.polygons() && !m_polygon.empty(); ++plane) {
+  for (std::size_t plane = 0; plane < m_hull->polygons() && !m_polygon.empty(); ++plane) {
     m_cut.clear();
     for (std::size_t k = 0; k < m_polygon.size(); ++k) {
       const BodyPoint& a = m_polygon[k];

@@ -15,8 +15,12 @@ inline namespace WETCLOTH_PRECISION {
 /// mostly does the next.
 class HullCrossing {
  public:
-  /// @param depth  how deep in it what is outside may be, for rounding [m]
-  HullCrossing(const ConvexHull& hull, double depth) : m_hull(hull), m_depth(depth) {}
+  /// Of which hull. @param depth  how deep in it what is outside may be, for rounding [m]
+  void begin(const ConvexHull& hull, double depth) {
+    m_hull = &hull;
+    m_depth = depth;
+    m_last = 0;
+  }
   /// Of a triangle in the hull's frame.
   bool isIn(const std::array<BodyPoint, 3>& triangle);
 
@@ -24,8 +28,8 @@ class HullCrossing {
   bool isBeyond(std::size_t plane, const std::array<BodyPoint, 3>& triangle) const;
   double outside(std::size_t plane, const BodyPoint& point) const;
 
-  const ConvexHull& m_hull;
-  double m_depth;
+  const ConvexHull* m_hull = nullptr;
+  double m_depth = 0;
   std::size_t m_last = 0;
   std::vector<BodyPoint> m_polygon;
   std::vector<BodyPoint> m_cut;

@@ -2,7 +2,7 @@
 // With the guard's `bodies` no vertex of a cloth meets a face of a rigid body, no corner of the body a face of the
 // cloth, and no edge an edge, from small step to small step.
 #include "bullet_wetcloth/bullet_wetcloth.h"
-#include "tests/solver/BodyScene.h"
+#include "tests/solver/ClothAndBodies.h"
 
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <BulletDynamics/Featherstone/btMultiBody.h>
@@ -20,7 +20,7 @@ namespace {
 
 using Edge = wetcloth::ClothPatch::Edge;
 
-void expectNothingForced(BodyScene& scene) {
+void expectNothingForced(ClothAndBodies& scene) {
   EXPECT_EQ(scene.passages(), 0);
   EXPECT_EQ(scene.totals().forced, 0);
   EXPECT_EQ(scene.totals().meeting, 0);
@@ -90,26 +90,26 @@ btTransform at(const btVector3& place, const btQuaternion& turn = btQuaternion::
 struct Fall {
   const char* name;
   double speed;
-  void (*addObstacle)(BodyScene&);
+  void (*addObstacle)(ClothAndBodies&);
 };
 std::ostream& operator<<(std::ostream& out, const Fall& fall) { return out << fall.name; }
 
-void addCorner(BodyScene& scene) { scene.addBox(0.1, 0.1, 0.1, btVector3(0, btScalar(-0.13), 0)); }
-void addSpike(BodyScene& scene) {
+void addCorner(ClothAndBodies& scene) { scene.addBox(0.1, 0.1, 0.1, btVector3(0, btScalar(-0.13), 0)); }
+void addSpike(ClothAndBodies& scene) {
   const BodySurface spike = BodySurface::ofSpike(5, 0.03, 0.3);
   scene.add(hullOf(spike), spike, btVector3(0, btScalar(-0.33), 0));
 }
-void addCone(BodyScene& scene) {
+void addCone(ClothAndBodies& scene) {
   // What is checked is a pyramid in the cone.
   BodySurface inner = BodySurface::ofSpike(4, 0.02, 0.3);
   for (btVector3& corner : inner.corners) corner -= btVector3(0, btScalar(0.15), 0);
   scene.add(std::make_unique<btConeShape>(btScalar(0.02), btScalar(0.3)), inner, btVector3(0, btScalar(-0.18), 0));
 }
-void addMesh(BodyScene& scene) {
+void addMesh(ClothAndBodies& scene) {
   const BodySurface blades = fan(7, 0.2, 0.2);
   scene.add(MeshShape::of(blades), blades, btVector3(0, btScalar(-0.23), 0));
 }
-void addCompound(BodyScene& scene) {
+void addCompound(ClothAndBodies& scene) {
   // A rod on a shelf.
   static btBoxShape rod(btVector3(btScalar(0.002), btScalar(0.1), btScalar(0.002)));
   auto shape = std::make_unique<btCompoundShape>();
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(, ClothFalls,
                                          Fall{"fastOverACompound", 20, addCompound}),
                          [](const auto& test) { return std::string(test.param.name); });
 
-void fall(BodyScene& scene, const Fall& what) {
+void fall(ClothAndBodies& scene, const Fall& what) {
   btSoftBody& cloth = scene.add(levelSheet(13, 0.6, btVector3(btScalar(0.021), 0, btScalar(0.013))));
   throwDown(cloth, what.speed);
   what.addObstacle(scene);
@@ -137,7 +137,7 @@ void fall(BodyScene& scene, const Fall& what) {
 }
 
 TEST_P(ClothFalls, AndPassesNothing) {
-  BodyScene scene(true);
+  ClothAndBodies scene(true);
   fall(scene, GetParam());
   expectNothingForced(scene);
   EXPECT_GT(scene.totals().pairs, 0);
@@ -145,7 +145,7 @@ TEST_P(ClothFalls, AndPassesNothing) {
 }
 
 TEST_P(ClothFalls, AndPassesWithoutTheOption) {
-  BodyScene scene(false);
+  ClothAndBodies scene(false);
   fall(scene, GetParam());
   EXPECT_GT(scene.passages(), 0);
 }
@@ -156,13 +156,13 @@ class NeedleFalls : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(, NeedleFalls, testing::Values(1, 20));
 
 // 4 mm wide, on a cloth whose edges are 50 mm long.
-btRigidBody& dropNeedle(BodyScene& scene, double speed) {
+btRigidBody& dropNeedle(ClothAndBodies& scene, double speed) {
   return scene.addBox(0.002, 0.1, 0.002, btVector3(btScalar(0.02), btScalar(0.13), btScalar(0.013)), 0.05,
                       btVector3(0, btScalar(-speed), 0));
 }
 
 TEST_P(NeedleFalls, AndIsCaught) {
-  BodyScene scene(true);
+  ClothAndBodies scene(true);
   scene.add(frame());
   const btRigidBody& needle = dropNeedle(scene, GetParam());
   scene.step(30);
@@ -172,14 +172,14 @@ TEST_P(NeedleFalls, AndIsCaught) {
 }
 
 TEST_P(NeedleFalls, AndPassesWithoutTheOption) {
-  BodyScene scene(false);
+  ClothAndBodies scene(false);
   scene.add(frame());
   dropNeedle(scene, GetParam());
   scene.step(20);
   EXPECT_GT(scene.passages(), 0);
 }
 
-void shoot(BodyScene& scene) {
+void shoot(ClothAndBodies& scene) {
   wetcloth::ClothPatch sail = sailPatch(13);
   sail.pinnedEdges = {Edge::top};
   scene.add(sail);
@@ -189,17 +189,17 @@ void shoot(BodyScene& scene) {
 
 // It flies half a metre in a step, and is not near when that begins.
 TEST(GuardBodies, AFastBoxHitsAHangingCloth) {
-  BodyScene with(true);
+  ClothAndBodies with(true);
   shoot(with);
   expectNothingForced(with);
-  BodyScene without(false);
+  ClothAndBodies without(false);
   shoot(without);
   EXPECT_GT(without.passages(), 0);
 }
 
 // --- bodies that an application moves -------------------------------------------------------------------------------
 
-void sweep(BodyScene& scene, double turning) {
+void sweep(ClothAndBodies& scene, double turning) {
   scene.add(frame());
   btRigidBody& body = scene.addBox(0.03, 0.02, 0.12, btVector3(btScalar(-0.05), btScalar(0.25), 0));
   makeKinematic(body);
@@ -213,17 +213,17 @@ void sweep(BodyScene& scene, double turning) {
 
 TEST(GuardBodies, AKinematicBoxSweeps) {
   for (const double turning : {0.0, 5.0}) {
-    BodyScene with(true);
+    ClothAndBodies with(true);
     sweep(with, turning);
     expectNothingForced(with);
-    BodyScene without(false);
+    ClothAndBodies without(false);
     sweep(without, turning);
     EXPECT_GT(without.passages(), 0);
   }
 }
 
 // Two boxes close on a cloth; this is left between them at the end [m].
-void pinch(BodyScene& scene, double gap) {
+void pinch(ClothAndBodies& scene, double gap) {
   scene.add(levelSheet(13, 0.6, btVector3(0, 0, 0)));
   btRigidBody& above = scene.addBox(0.2, 0.05, 0.2, btVector3(0, btScalar(0.1), 0));
   btRigidBody& below = scene.addBox(0.2, 0.05, 0.2, btVector3(btScalar(0.02), btScalar(-0.1), 0));
@@ -238,18 +238,18 @@ void pinch(BodyScene& scene, double gap) {
 
 TEST(GuardBodies, APinchThatLeavesRoom) {
   for (const double gap : {0.03, 0.005}) {
-    BodyScene scene(true);
+    ClothAndBodies scene(true);
     pinch(scene, gap);
     expectNothingForced(scene);
   }
-  BodyScene without(false);
+  ClothAndBodies without(false);
   pinch(without, 0.03);
   EXPECT_GT(without.passages(), 0);
 }
 
 // Bodies go where they are told. It is told, and the rest of the cloth goes on.
 TEST(GuardBodies, APinchThatLeavesNone) {
-  BodyScene scene(true);
+  ClothAndBodies scene(true);
   pinch(scene, -0.01);
   EXPECT_GT(scene.totals().forced, 0);
   EXPECT_TRUE(isFinite(scene.cloth()));
@@ -258,7 +258,7 @@ TEST(GuardBodies, APinchThatLeavesNone) {
 }
 
 TEST(GuardBodies, ABodyThatIsPutElsewhereSweepsNothing) {
-  BodyScene scene(true, kNoGravity);
+  ClothAndBodies scene(true, kNoGravity);
   scene.add(levelSheet(9, 0.4, btVector3(0, 0, 0)));
   btRigidBody& body = scene.addBox(0.05, 0.05, 0.05, btVector3(0, btScalar(0.3), 0), 1);
   scene.step(2);
@@ -271,7 +271,7 @@ TEST(GuardBodies, ABodyThatIsPutElsewhereSweepsNothing) {
 // --- what stands in a body ------------------------------------------------------------------------------------------
 
 TEST(GuardBodies, WhatStandsInABodyComesOut) {
-  BodyScene scene(true, kNoGravity);
+  ClothAndBodies scene(true, kNoGravity);
   btSoftBody& cloth = scene.add(levelSheet(13, 0.6, btVector3(0, 0, 0)));
   scene.addBox(0.12, 0.06, 0.12, btVector3(0, btScalar(-0.05), 0));
   scene.step(1);
@@ -288,7 +288,7 @@ TEST(GuardBodies, WhatStandsInABodyComesOut) {
 
 // A rod stands through a face: it can be pulled out.
 TEST(GuardBodies, WhatIsPiercedIsNotCaught) {
-  BodyScene scene(true, kNoGravity);
+  ClothAndBodies scene(true, kNoGravity);
   scene.add(frame());
   btRigidBody& rod = scene.addBox(0.002, 0.05, 0.002, btVector3(btScalar(0.02), 0, btScalar(0.01)));
   makeKinematic(rod);
@@ -303,30 +303,30 @@ TEST(GuardBodies, WhatIsPiercedIsNotCaught) {
 // --- which bodies ---------------------------------------------------------------------------------------------------
 
 TEST(GuardBodies, BodiesThatDoNotCollideAreNone) {
-  const auto looksAt = [](const std::function<void(BodyScene&, btRigidBody&)>& change) {
-    BodyScene scene(true);
+  const auto looksAt = [](const std::function<void(ClothAndBodies&, btRigidBody&)>& change) {
+    ClothAndBodies scene(true);
     scene.add(levelSheet(9, 0.4, btVector3(0, btScalar(0.02), 0)));
     btRigidBody& body = scene.addBox(0.05, 0.01, 0.05, btVector3(0, 0, 0));
     change(scene, body);
     scene.step(10);
     return scene.totals().pairs > 0;
   };
-  EXPECT_TRUE(looksAt([](BodyScene&, btRigidBody&) {}));
-  EXPECT_FALSE(looksAt([](BodyScene&, btRigidBody& body) {
+  EXPECT_TRUE(looksAt([](ClothAndBodies&, btRigidBody&) {}));
+  EXPECT_FALSE(looksAt([](ClothAndBodies&, btRigidBody& body) {
     body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_NO_CONTACT_RESPONSE);
   }));
-  EXPECT_FALSE(looksAt([](BodyScene& scene, btRigidBody& body) {
+  EXPECT_FALSE(looksAt([](ClothAndBodies& scene, btRigidBody& body) {
     scene.scene().bullet().world().removeRigidBody(&body);
     scene.scene().bullet().world().addRigidBody(&body, 64, 64);
   }));
   EXPECT_FALSE(
-      looksAt([](BodyScene& scene, btRigidBody& body) { scene.cloth().setIgnoreCollisionCheck(&body, true); }));
-  EXPECT_FALSE(
-      looksAt([](BodyScene& scene, btRigidBody& body) { scene.cloth().m_collisionDisabledObjects.push_back(&body); }));
+      looksAt([](ClothAndBodies& scene, btRigidBody& body) { scene.cloth().setIgnoreCollisionCheck(&body, true); }));
+  EXPECT_FALSE(looksAt(
+      [](ClothAndBodies& scene, btRigidBody& body) { scene.cloth().m_collisionDisabledObjects.push_back(&body); }));
 }
 
 TEST(GuardBodies, BodiesComeAndGo) {
-  BodyScene scene(true);
+  ClothAndBodies scene(true);
   scene.add(frame());
   for (int turn = 0; turn < 3; ++turn) {
     dropNeedle(scene, 1);
@@ -339,7 +339,7 @@ TEST(GuardBodies, BodiesComeAndGo) {
 }
 
 TEST(GuardBodies, AClothIsNotKeptFromWhatItIsFixedTo) {
-  BodyScene scene(true);
+  ClothAndBodies scene(true);
   btSoftBody& cloth = scene.add(sailPatch(9));
   btRigidBody& rod = scene.addBox(0.6, 0.01, 0.01, btVector3(btScalar(0.5), 1, 0));
   for (int k = 72; k < 81; ++k) cloth.appendAnchor(k, &rod);
@@ -350,14 +350,14 @@ TEST(GuardBodies, AClothIsNotKeptFromWhatItIsFixedTo) {
 }
 
 TEST(GuardBodies, InTheWorldOfMultibodies) {
-  BodyScene scene(true, kEarthGravity, WorldKind::softMultiBody);
+  ClothAndBodies scene(true, kEarthGravity, WorldKind::softMultiBody);
   fall(scene, {"", 5, addSpike});
   expectNothingForced(scene);
 }
 
 TEST(GuardBodies, OneKilometreFromTheOrigin) {
   for (const bool isGuarded : {true, false}) {
-    BodyScene scene(isGuarded);
+    ClothAndBodies scene(isGuarded);
     const btVector3 there(1000, 0, 1000);
     throwDown(scene.add(levelSheet(13, 0.6, there + btVector3(btScalar(0.021), 0, btScalar(0.013)))), 2);
     const BodySurface spike = BodySurface::ofSpike(5, 0.03, 0.3);
@@ -383,7 +383,7 @@ struct Saved {
     wet->save(stream);
     return stream.str();
   }
-  BodyScene scene;
+  ClothAndBodies scene;
   std::unique_ptr<wetcloth::WetClothWorld> wet;
 };
 
@@ -403,7 +403,7 @@ TEST(GuardBodies, ARestoredRunGoesOnBitForBit) {
 
 // Nothing of a body that is not finite is taken.
 TEST(GuardBodies, ABodyThatIsNotFinite) {
-  BodyScene scene(true);
+  ClothAndBodies scene(true);
   scene.add(levelSheet(9, 0.4, btVector3(0, btScalar(0.02), 0)));
   scene.addBox(0.05, 0.01, 0.05, btVector3(0, 0, 0));
   btRigidBody& bad = scene.addBox(0.05, 0.01, 0.05, btVector3(btScalar(0.1), btScalar(-0.1), 0));

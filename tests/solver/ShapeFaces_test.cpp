@@ -240,7 +240,8 @@ TEST(ConvexHulls, AreToldByWhatTheyAreMadeOf) {
 TEST(HullCrossing, OfTrianglesAndABox) {
   ConvexHulls hulls;
   const btBoxShape box(btVector3(1, 1, 1));
-  HullCrossing crossing(hulls.of(box), 1e-6);
+  HullCrossing crossing;
+  crossing.begin(hulls.of(box), 1e-6);
   EXPECT_TRUE(crossing.isIn({{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}}})) << "all of it";
   EXPECT_TRUE(crossing.isIn({{{0, 0, 0}, {5, 0, 0}, {0, 5, 0}}})) << "a corner of it";
   EXPECT_TRUE(crossing.isIn({{{-5, -5, 0}, {5, -5, 0.1}, {0, 9, 0}}})) << "the box goes through it";

@@ -155,9 +155,10 @@ class BodyPassageCheck {
 };
 
 /// One cloth and some bodies, guarded against them or not.
-class BodyScene {
+class ClothAndBodies {
  public:
-  explicit BodyScene(bool isGuarded, const btVector3& gravity = kEarthGravity, WorldKind kind = WorldKind::softRigid)
+  explicit ClothAndBodies(bool isGuarded, const btVector3& gravity = kEarthGravity,
+                          WorldKind kind = WorldKind::softRigid)
       : m_scene(kind, gravity, parametersOf(isGuarded)) {}
 
   template <class Source>
