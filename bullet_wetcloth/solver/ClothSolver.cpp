@@ -318,7 +318,7 @@ void ClothSolver::solveConstraints(btScalar dt) {
       taken->cloth.solve(m_impl->parameters, m_impl->viewers);
     }
   }
-  if (isGuarded) m_impl->solveGuarded(m_softBodySet, dt);
+  isGuarded ? m_impl->solveGuarded(m_softBodySet, dt) : m_impl->bodies.forget();
 }
 
 void ClothSolver::updateSoftBodies() {

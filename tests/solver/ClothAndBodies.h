@@ -198,6 +198,8 @@ class ClothAndBodies {
   btSoftBody& cloth() { return *m_cloth; }
   wetcloth::ClothSolver::GuardTotals totals() { return m_scene.solver().guardTotals(); }
   SolverScene& scene() { return m_scene; }
+  /// Looks at one more surface.
+  void watch(const btCollisionObject& object, const BodySurface& surface) { m_check->add(object, surface); }
   void removeLastBody() { m_bodies.pop_back(); }
 
  private:

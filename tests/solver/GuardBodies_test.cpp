@@ -4,7 +4,6 @@
 #include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/solver/ClothAndBodies.h"
 
-#include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <gtest/gtest.h>
@@ -353,6 +352,29 @@ TEST(GuardBodies, InTheWorldOfMultibodies) {
   ClothAndBodies scene(true, kEarthGravity, WorldKind::softMultiBody);
   fall(scene, {"", 5, addSpike});
   expectNothingForced(scene);
+}
+
+TEST(GuardBodies, ALinkOfAMultibody) {
+  ClothAndBodies scene(true, kEarthGravity, WorldKind::softMultiBody);
+  throwDown(scene.add(levelSheet(13, 0.6, btVector3(btScalar(0.021), 0, btScalar(0.013)))), 5);
+  btMultiBody multibody(0, 0, btVector3(0, 0, 0), true, false);
+  multibody.setBaseWorldTransform(at(btVector3(0, btScalar(-0.33), 0)));
+  multibody.finalizeMultiDof();
+  const BodySurface spike = BodySurface::ofSpike(5, 0.03, 0.3);
+  const auto shape = hullOf(spike);
+  btMultiBodyLinkCollider link(&multibody, -1);
+  link.setCollisionShape(shape.get());
+  link.setWorldTransform(multibody.getBaseWorldTransform());
+  multibody.setBaseCollider(&link);
+  btDiscreteDynamicsWorld& world = scene.scene().bullet().world();
+  world.addCollisionObject(&link);
+  static_cast<btMultiBodyDynamicsWorld&>(world).addMultiBody(&multibody);
+  scene.watch(link, spike);
+  scene.step(30);
+  expectNothingForced(scene);
+  EXPECT_GT(scene.totals().pairs, 0);
+  static_cast<btMultiBodyDynamicsWorld&>(world).removeMultiBody(&multibody);
+  world.removeCollisionObject(&link);
 }
 
 TEST(GuardBodies, OneKilometreFromTheOrigin) {

@@ -225,6 +225,25 @@ TEST(ShapeFaces, RefinedFacesEncloseTheSame) {
   }
 }
 
+// Points in one plane have faces on both sides of it and nothing inside; fewer have no faces.
+TEST(ShapeFaces, HullsOfFewPoints) {
+  const std::vector<btVector3> points = {btVector3(0, 0, 0), btVector3(1, 0, 0), btVector3(1, 1, 0),
+                                         btVector3(0, 1, 0)};
+  for (std::size_t count = 0; count <= points.size(); ++count) {
+    SCOPED_TRACE(count);
+    ConvexHulls hulls;
+    btConvexHullShape shape;
+    for (std::size_t k = 0; k < count; ++k) shape.addPoint(points[k]);
+    const ShapeFaces faces = facesOf(shape, boxAround(0, 0, 0, 5), hulls);
+    EXPECT_EQ(faces.faces().empty(), count < 3);
+    for (const ShapeFaces::Hull& hull : faces.hulls()) {
+      HullCrossing crossing;
+      crossing.begin(*hull.hull, 1e-6);
+      EXPECT_FALSE(crossing.isIn({{{0.5, 0.5, -1}, {0.6, 0.5, 1}, {0.5, 0.6, 1}}}));
+    }
+  }
+}
+
 // A shape may change between two steps, and another may be made where it was.
 TEST(ConvexHulls, AreToldByWhatTheyAreMadeOf) {
   ConvexHulls hulls;
