@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/solver/BodyRecoil.h"
 
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+
 #include <algorithm>
 
 namespace wetcloth {

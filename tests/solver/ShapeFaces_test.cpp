@@ -196,8 +196,8 @@ TEST(ShapeFaces, WhatTwoBoxesFindIsThereOnce) {
 
 TEST(ShapeFaces, TerrainAndCompounds) {
   ConvexHulls hulls;
-  const std::vector<float> heights(25, 0.5f);
-  const btHeightfieldTerrainShape terrain(5, 5, heights.data(), 1, 0, 1, 1, PHY_FLOAT, false);
+  const std::vector<btScalar> heights(25, btScalar(0.5));
+  const btHeightfieldTerrainShape terrain(5, 5, heights.data(), btScalar(0), btScalar(1), 1, false);
   EXPECT_FALSE(facesOf(terrain, boxAround(0.5, 0, 0.5, 0.3), hulls).faces().empty());
   btBoxShape box(btVector3(1, 1, 1));
   btCompoundShape compound;
