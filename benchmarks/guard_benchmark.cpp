@@ -8,6 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace {
@@ -18,11 +19,13 @@ using wetcloth_test::BulletWorld;
 using wetcloth_test::RigidBody;
 using wetcloth_test::WorldKind;
 
+using Guard = std::optional<wetcloth::ClothSolver::Guard>;
+
 // A world with cloths, guarded or not, and perhaps a floor at y = 0.
 class Scene {
  public:
-  Scene(const std::vector<wetcloth::ClothPatch>& patches, bool isGuarded, bool hasFloor)
-      : m_solver(parametersOf(isGuarded)), m_bullet(WorldKind::softRigid, btVector3(0, btScalar(-9.81), 0), &m_solver) {
+  Scene(const std::vector<wetcloth::ClothPatch>& patches, const Guard& guard, bool hasFloor)
+      : m_solver(parametersOf(guard)), m_bullet(WorldKind::softRigid, btVector3(0, btScalar(-9.81), 0), &m_solver) {
     if (hasFloor) {
       m_floor = std::make_unique<RigidBody>(m_bullet, std::make_unique<btBoxShape>(btVector3(3, 1, 3)), btScalar(0),
                                             btVector3(0, -1, 0));
@@ -44,9 +47,9 @@ class Scene {
   wetcloth::ClothSolver& solver() { return m_solver; }
 
  private:
-  static wetcloth::ClothSolver::Parameters parametersOf(bool isGuarded) {
+  static wetcloth::ClothSolver::Parameters parametersOf(const Guard& guard) {
     wetcloth::ClothSolver::Parameters parameters;
-    if (isGuarded) parameters.guard.emplace();
+    parameters.guard = guard;
     return parameters;
   }
   wetcloth::ClothSolver m_solver;
@@ -55,9 +58,10 @@ class Scene {
   std::vector<std::unique_ptr<btSoftBody>> m_bodies;
 };
 
-void compare(benchmark::State& state, const std::vector<wetcloth::ClothPatch>& patches, bool hasFloor, int warmUp) {
-  Scene plain(patches, false, hasFloor);
-  Scene guarded(patches, true, hasFloor);
+void compare(benchmark::State& state, const std::vector<wetcloth::ClothPatch>& patches, bool hasFloor, int warmUp,
+             const Guard& without = std::nullopt, const Guard& with = wetcloth::ClothSolver::Guard()) {
+  Scene plain(patches, without, hasFloor);
+  Scene guarded(patches, with, hasFloor);
   for (int step = 0; step < warmUp; ++step) {
     plain.step();
     guarded.step();
@@ -111,11 +115,21 @@ void twoLayers(benchmark::State& state) {
   compare(state, {lower, upper}, true, 60);
 }
 
+// A cloth that lies on a box. The ratio is to the same guard without bodies.
+void onABox(benchmark::State& state) {
+  wetcloth::ClothPatch cloth = wetcloth_test::levelPatch(sideOf(state), 1);
+  cloth.origin.setY(btScalar(0.02));
+  wetcloth::ClothSolver::Guard bodies;
+  bodies.bodies = true;
+  compare(state, {cloth}, true, 60, wetcloth::ClothSolver::Guard(), bodies);
+}
+
 void heap(benchmark::State& state) { compare(state, {upright(sideOf(state), 0.1)}, true, 120); }
 
 BENCHMARK(hanging)->Arg(64)->Arg(128)->Arg(256)->UseManualTime()->Iterations(120)->Unit(benchmark::kMillisecond);
 BENCHMARK(swinging)->Arg(64)->Arg(128)->Arg(256)->UseManualTime()->Iterations(120)->Unit(benchmark::kMillisecond);
 BENCHMARK(twoLayers)->Arg(64)->Arg(128)->UseManualTime()->Iterations(30)->Unit(benchmark::kMillisecond);
+BENCHMARK(onABox)->Arg(64)->Arg(128)->UseManualTime()->Iterations(60)->Unit(benchmark::kMillisecond);
 BENCHMARK(heap)->Arg(64)->Arg(128)->UseManualTime()->Iterations(30)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -126,9 +126,11 @@ struct Before {
 
 }  // namespace
 
-void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters, int smallSteps) {
+void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters, int smallSteps,
+                       const GuardExemptions* exemptions) {
   m_cloths = cloths;
   m_parameters = parameters;
+  m_exemptions = exemptions;
   m_kept.resize(cloths.size());
   m_first.clear();
   m_tiles.clear();
@@ -141,6 +143,7 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
     if (cloth.mesh->edgeLength > 0) edge = std::min(edge, cloth.mesh->edgeLength);
   }
   m_nodes.resize(count);
+  m_nodes.setBodies(cloths.back().mesh->isOfBodies ? m_first.back() : count);
   m_edge = static_cast<btScalar>(edge);
   m_contact.thickness = static_cast<btScalar>(std::min(parameters.thickness, kThicknessOfEdge * edge));
   m_contact.mostParting = kPartingOfEdge * m_edge;
@@ -185,6 +188,7 @@ void ClothGuard::keep() {
 }
 
 void ClothGuard::hold() {
+  for (GuardNodes::Place& recoil : m_nodes.recoil) recoil = {};
   m_age >= m_ahead ? look() : static_cast<void>(++m_age);
   if (!m_pairs.isEmpty()) {
     gather();
@@ -329,6 +333,7 @@ void ClothGuard::lookAgain() {
 }
 
 void ClothGuard::addPlanes() {
+  if (m_exemptions) m_exemptions->takeFrom(m_candidates);
   m_totals.candidates += static_cast<long long>(m_candidates.size());
   if (!m_candidates.isEmpty()) gather();
   m_totals.meeting = std::max(m_totals.meeting, m_pairs.look(m_nodes, m_candidates, m_contact));

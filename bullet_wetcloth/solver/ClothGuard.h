@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/bullet/PackedNodes.h"
 #include "bullet_wetcloth/solver/ClothSolver.h"
 #include "bullet_wetcloth/solver/ExpectedWay.h"
+#include "bullet_wetcloth/solver/GuardExemptions.h"
 #include "bullet_wetcloth/solver/GuardMesh.h"
 #include "bullet_wetcloth/solver/GuardPairs.h"
 #include "bullet_wetcloth/solver/GuardTiles.h"
@@ -36,9 +37,13 @@ class ClothGuard {
 
   /// Before the first small step of a step: nodes stand where they were at its end, and pins where they come from.
   /// @param smallSteps  how often hold() is called in this step
-  void begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters, int smallSteps);
+  /// @param exemptions  of pairs, which outlive the step; or null
+  void begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters, int smallSteps,
+             const GuardExemptions* exemptions = nullptr);
   /// After each small step.
   void hold();
+  /// What the nodes of bodies have pushed since then: see GuardNodes.
+  const std::vector<GuardNodes::Place>& recoil() const { return m_nodes.recoil; }
 
   const ClothSolver::GuardTotals& totals() const { return m_totals; }
   void resetTotals() { m_totals = {}; }
@@ -65,6 +70,7 @@ class ClothGuard {
   std::vector<Cloth> m_cloths;
   std::vector<std::size_t> m_first;  // of each cloth's nodes among all
   ClothSolver::Guard m_parameters;
+  const GuardExemptions* m_exemptions = nullptr;
   ClothSolver::GuardTotals m_totals;
   GuardTiles m_tiles;
   GuardPairs m_pairs;

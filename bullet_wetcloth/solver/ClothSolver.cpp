@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/solver/ClothGuard.h"
+#include "bullet_wetcloth/solver/GuardBodies.h"
 #include "bullet_wetcloth/solver/PackedCloth.h"
 #include "bullet_wetcloth/solver/SmallStepCount.h"
 #include "bullet_wetcloth/solver/SmallStepViewers.h"
@@ -93,7 +94,8 @@ class ClothSolver::Impl {
     if (logger) logger(message);
   }
 
-  void solveGuarded(const btAlignedObjectArray<btSoftBody*>& bodies);
+  void solveGuarded(const btAlignedObjectArray<btSoftBody*>& softBodies, btScalar dt);
+  void beginGuard(int smallSteps);
   void warnOfBadNode(Taken& taken) const;
   void warnOfSmallSteps(Taken& taken) const;
 
@@ -102,7 +104,10 @@ class ClothSolver::Impl {
   std::vector<std::unique_ptr<Taken>> before;  // room for those of the step before, so that no step allocates
   ClothGuard guard;
   std::vector<PackedCloth*> guarded;            // in this step
-  std::vector<ClothGuard::Cloth> guardedNodes;  // theirs
+  std::vector<ClothGuard::Cloth> guardedNodes;  // theirs, and those of rigid bodies
+  GuardBodies bodies;
+  std::vector<GuardBodies::Cloth> amongBodies;  // those that are guarded
+  long long mostInside = 0;
   SmallStepViewers viewers;
   std::function<void(const std::string&)> logger = [](const std::string& message) { std::clog << message << '\n'; };
 };
@@ -176,8 +181,16 @@ PackedNodes* ClothSolver::packedNodes(const btSoftBody& body) {
   return taken && !taken->cloth.hasNewMesh() ? &taken->cloth.nodes() : nullptr;
 }
 
-ClothSolver::GuardTotals ClothSolver::guardTotals() const { return m_impl->guard.totals(); }
-void ClothSolver::resetGuardTotals() { m_impl->guard.resetTotals(); }
+ClothSolver::GuardTotals ClothSolver::guardTotals() const {
+  GuardTotals totals = m_impl->guard.totals();
+  totals.inside = m_impl->mostInside;
+  return totals;
+}
+
+void ClothSolver::resetGuardTotals() {
+  m_impl->guard.resetTotals();
+  m_impl->mostInside = 0;
+}
 
 void ClothSolver::setSmallStepCallback(SmallStepCallback callback) { m_impl->viewers.setCallback(std::move(callback)); }
 void ClothSolver::addObserver(const std::shared_ptr<SmallStepObserver>& observer) { m_impl->viewers.add(observer); }
@@ -215,6 +228,8 @@ void ClothSolver::transferState(StateArchive& archive, const btAlignedObjectArra
       m_impl->cloths.back()->cloth.transferState(archive);
     }
   }
+  const bool hasBodies = m_impl->parameters.guard && m_impl->parameters.guard->bodies;
+  if (hasBodies) archive.section("bodies near cloths", [&] { m_impl->bodies.transferState(archive); });
 }
 
 void ClothSolver::predictMotion(btScalar dt) {
@@ -242,33 +257,56 @@ void ClothSolver::processCollision(btSoftBody* body, btSoftBody* other) {
   btDefaultSoftBodySolver::processCollision(body, other);
 }
 
-// All cloths take each small step together, so that they can be kept apart after it.
-void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& bodies) {
-  guarded.clear();
+// From where the nodes are now.
+void ClothSolver::Impl::beginGuard(int smallSteps) {
   guardedNodes.clear();
+  for (PackedCloth* const cloth : guarded) guardedNodes.push_back(cloth->guarded());
+  const bool hasBodies = parameters.guard->bodies && !bodies.isEmpty();
+  if (hasBodies) guardedNodes.push_back(bodies.guarded(guardedNodes.front().h));
+  guard.begin(guardedNodes, *parameters.guard, smallSteps, hasBodies ? &bodies.exemptions() : nullptr);
+}
+
+// All cloths take each small step together, so that they can be kept apart after it.
+void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& softBodies, btScalar dt) {
+  guarded.clear();
+  amongBodies.clear();
   int count = 0;
-  for (int k = 0; k < bodies.size(); ++k) {
-    Taken* const taken = bodies[k]->isActive() ? find(*bodies[k]) : nullptr;
+  for (int k = 0; k < softBodies.size(); ++k) {
+    Taken* const taken = softBodies[k]->isActive() ? find(*softBodies[k]) : nullptr;
     if (!taken || !taken->cloth.beginSmallSteps(parameters)) continue;
     guarded.push_back(&taken->cloth);
-    guardedNodes.push_back(taken->cloth.guarded());
+    amongBodies.push_back({softBodies[k], taken->cloth.guarded()});
     count = std::max(count, taken->cloth.smallSteps());
   }
   if (guarded.empty()) return;
-  guard.begin(guardedNodes, *parameters.guard, count);
+  const bool hasBodies = parameters.guard->bodies;
+  if (hasBodies) {
+    bodies.begin(amongBodies, parameters.guard->thickness, dt);
+    mostInside = std::max(mostInside, bodies.inside());
+  } else {
+    bodies.forget();
+  }
+  beginGuard(count);
   for (int k = 0; k < count; ++k) {
+    if (hasBodies && !bodies.covers(amongBodies)) {
+      bodies.gather(amongBodies, static_cast<double>(k) / count);
+      beginGuard(count - k);
+    }
     for (PackedCloth* const cloth : guarded) {
       if (k < cloth->smallSteps()) cloth->takeSmallStep(k);
     }
+    if (hasBodies) bodies.go(static_cast<double>(k + 1) / count);
     guard.hold();
+    if (hasBodies) bodies.recoil(guard.recoil(), static_cast<double>(k + 1) / count, dt / static_cast<btScalar>(count));
     for (PackedCloth* const cloth : guarded) {
       if (k < cloth->smallSteps()) cloth->show(viewers, k);
     }
   }
   for (PackedCloth* const cloth : guarded) cloth->endSmallSteps();
+  if (hasBodies) bodies.end();
 }
 
-void ClothSolver::solveConstraints(btScalar) {
+void ClothSolver::solveConstraints(btScalar dt) {
   const bool isGuarded = m_impl->parameters.guard.has_value();
   for (int k = 0; k < m_softBodySet.size(); ++k) {
     btSoftBody& body = *m_softBodySet[k];
@@ -280,7 +318,7 @@ void ClothSolver::solveConstraints(btScalar) {
       taken->cloth.solve(m_impl->parameters, m_impl->viewers);
     }
   }
-  if (isGuarded) m_impl->solveGuarded(m_softBodySet);
+  isGuarded ? m_impl->solveGuarded(m_softBodySet, dt) : m_impl->bodies.forget();
 }
 
 void ClothSolver::updateSoftBodies() {

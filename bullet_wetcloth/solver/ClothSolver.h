@@ -27,6 +27,9 @@ struct ClothGuardParameters {
   bool others = true;     ///< the cloths that the solver has taken, among each other
   int every = 10;         ///< for so many small steps ahead nodes are expected on their way, [1, 100]
   double friction = 0.3;  ///< between layers, coefficient, >= 0
+  /// The cloths and rigid bodies, static, kinematic and dynamic ones, whose shapes are convex, triangle meshes, planes,
+  /// or compounds of these: docs/guard.md says what is kept of which. A body that a cloth stops is slowed by it.
+  bool bodies = false;
 };
 
 /// Steps cloths faster and stiffer than Bullet does, behind Bullet's own seam: the last argument of its world.
@@ -51,8 +54,9 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
     long long pairs = 0;       ///< of these, what it held apart until the next look
     long long stopped = 0;     ///< nodes that were slowed because nothing else kept them apart, each small step counts
     long long halts = 0;       ///< small steps in which all cloths stood still
-    long long forced = 0;      ///< pairs that imposed nodes (pins) drove through each other, or might have
+    long long forced = 0;      ///< pairs that pins or bodies drove through each other, or might have
     long long meeting = 0;     ///< the most pairs that met at one look already, and so may pass
+    long long inside = 0;      ///< the most faces that stood in rigid bodies at once, and so may pass their surfaces
   };
 
   /// What can be set, with units and ranges.

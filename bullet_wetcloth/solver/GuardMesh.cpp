@@ -192,20 +192,25 @@ void forEachNodeOfTiles(const GuardMesh& mesh, const Action& action) {
   }
 }
 
-void findTilesOfNodes(int nodeCount, GuardMesh& mesh) {
-  std::vector<std::vector<int>> tiles(toSize(nodeCount));
-  forEachNodeOfTiles(mesh, [&](int node, int tile) {
-    std::vector<int>& of = tiles[toSize(node)];
-    if (of.empty() || of.back() != tile) of.push_back(tile);
-  });
-  for (const std::vector<int>& of : tiles) {
-    mesh.firstTileOfNode.push_back(static_cast<int>(mesh.tilesOfNodes.size()));
-    mesh.tilesOfNodes.insert(mesh.tilesOfNodes.end(), of.begin(), of.end());
-  }
-  mesh.firstTileOfNode.push_back(static_cast<int>(mesh.tilesOfNodes.size()));
-}
-
 }  // namespace
+
+void GuardMesh::findTilesOfNodes(int nodeCount) {
+  firstTileOfNode.assign(toSize(nodeCount), 0);
+  forEachNodeOfTiles(*this, [&](int node, int) { ++firstTileOfNode[toSize(node)]; });
+  int count = 0;
+  for (int& first : firstTileOfNode) {
+    const int end = count + first;  // if no tile came twice
+    first = count;
+    count = end;
+  }
+  endTileOfNode = firstTileOfNode;
+  tilesOfNodes.resize(toSize(count));
+  forEachNodeOfTiles(*this, [&](int node, int tile) {
+    int& end = endTileOfNode[toSize(node)];
+    if (end > firstTileOfNode[toSize(node)] && tilesOfNodes[toSize(end - 1)] == tile) return;
+    tilesOfNodes[toSize(end++)] = tile;
+  });
+}
 
 GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Grid>& grid) {
   GuardMesh mesh;
@@ -222,7 +227,7 @@ GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Gri
     fillTiles(body, order.data(), order.data() + order.size(), writer, mesh);
   }
   writer.beginCell(0, 0);
-  findTilesOfNodes(body.m_nodes.size(), mesh);
+  mesh.findTilesOfNodes(body.m_nodes.size());
   return mesh;
 }
 

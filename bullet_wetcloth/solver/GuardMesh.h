@@ -45,15 +45,20 @@ struct GuardMesh {
   std::vector<Face> faces;
   std::vector<Cell> cells;  ///< and one more after the last
   std::vector<Tile> tiles;  ///< of a grid: row by row
-  /// Of each node: the first one in tilesOfNodes, which are the tiles with a face or an edge that has the node, and of
-  /// a grid those whose rectangle has it; and one more after the last.
+  /// Of each node: between which of tilesOfNodes the tiles are that have a face with it, and of a grid those whose
+  /// rectangle has it.
   std::vector<int> firstTileOfNode;
+  std::vector<int> endTileOfNode;
   std::vector<int> tilesOfNodes;
   int columns = 0;  ///< of nodes in a grid; 0: it is none
   int rows = 0;
   int tileColumns = 0;
   int tileRows = 0;
-  double edgeLength = 0;  ///< mean at rest [m]
+  double edgeLength = 0;    ///< mean at rest [m]
+  bool isOfBodies = false;  ///< of rigid ones, which nobody keeps from each other
+
+  /// Finds the tiles of so many nodes.
+  void findTilesOfNodes(int nodeCount);
 
   bool isGrid() const { return columns > 0; }
 };

@@ -3,15 +3,17 @@
 
 #include "bullet_wetcloth/Precision.h"
 
-#include <LinearMath/btScalar.h>
+#include <LinearMath/btVector3.h>
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-/// The nodes of all cloths that are guarded, one after the other, with places relative to the first cloth's origin.
+/// The nodes of all cloths that are guarded, one after the other, with places relative to the first cloth's origin. The
+/// last may be those of rigid bodies.
 ///
 /// Until the next look at all of them a node is expected on the straight way from its start to its end, or no further
 /// from there than its slack on each axis.
@@ -25,6 +27,10 @@ struct GuardNodes {
   std::vector<Place> end;             ///< where it is expected until
   std::vector<Place> aside;           ///< how far of that they were moved without a change of velocity
   std::vector<btScalar> inverseMass;  ///< [1/kg]
+  int firstOfBodies = std::numeric_limits<int>::max();
+  /// Of each node of bodies, from firstOfBodies on: what it has pushed in this small step, the other way [kg m], and
+  /// times how far [kg m^2].
+  std::vector<Place> recoil;
 
   void resize(std::size_t count) {
     from.resize(count);
@@ -33,6 +39,19 @@ struct GuardNodes {
     end.resize(count);
     aside.resize(count);
     inverseMass.resize(count);
+  }
+  /// After resize(): from this node on they are those of bodies.
+  void setBodies(std::size_t first) {
+    firstOfBodies = static_cast<int>(first);
+    recoil.assign(to.size() - first, {});
+  }
+  bool isOfBodies(int node) const { return node >= firstOfBodies; }
+  /// A node of a body has pushed something.
+  /// @param push  what that has gained [kg m], over this way [m]
+  void addRecoil(int node, const btVector3& push, btScalar way) {
+    Place& sum = recoil[static_cast<std::size_t>(node - firstOfBodies)];
+    for (int axis = 0; axis < 3; ++axis) sum.at[axis] -= push[axis];
+    sum.at[3] += push.length() * way;
   }
   bool isImposed(int node) const { return !(inverseMass[static_cast<std::size_t>(node)] > 0); }
 };

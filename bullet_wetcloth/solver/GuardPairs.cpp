@@ -31,6 +31,7 @@ constexpr btScalar kWorthParting = 128;
 constexpr double kOfTheWay = 0.9;  // to the least gap, when a group is slowed
 
 WETCLOTH_INLINE Quad quadOf(const btVector3& vector) { return Quad{vector.x(), vector.y(), vector.z(), 0}; }
+WETCLOTH_INLINE btVector3 vectorOf(const Quad& quad) { return btVector3(quad[0], quad[1], quad[2]); }
 WETCLOTH_INLINE btScalar dot(const Quad& a, const Quad& b) {
   const Quad products = a * b;
   return products[0] + products[1] + products[2];
@@ -152,7 +153,7 @@ GuardPairs::Outcome GuardPairs::enforce(GuardNodes& nodes) {
   }
   m_groups.clear(nodes.to.size());
   for (int k = 0; k < kSlowings; ++k) {
-    if (!slow(nodes, k >= kSlowingsInPart)) {
+    if (!slow(nodes, k)) {
       outcome.stopped = static_cast<long long>(m_groups.size());
       return outcome;
     }
@@ -229,6 +230,8 @@ btScalar GuardPairs::keepApart(const GuardPlanes& planes, std::size_t plane, Gua
   for (int k = 0; k < 4; ++k) {
     const std::size_t i = toSize(planes.node(plane, k));
     shift(nodes.to[i], move, planes.weight(plane, k) * nodes.inverseMass[i] / yield);
+    const int node = planes.node(plane, k);
+    if (nodes.isOfBodies(node)) nodes.addRecoil(node, vectorOf(move) * (-planes.weight(plane, k) / yield), missing);
   }
   return missing;
 }
@@ -244,14 +247,17 @@ void GuardPairs::keepSides(const GuardPlanes& planes, std::size_t plane, GuardNo
   const Quad normal = quadOf(planes.normal(plane));
   shift(nodes.to[a], normal, missing * nodes.inverseMass[a] / yield);
   shift(nodes.to[b], normal, -missing * nodes.inverseMass[b] / yield);
+  const btVector3 push = vectorOf(normal) * (missing / yield);
+  if (nodes.isOfBodies(static_cast<int>(a))) nodes.addRecoil(static_cast<int>(a), -push, missing);
+  if (nodes.isOfBodies(static_cast<int>(b))) nodes.addRecoil(static_cast<int>(b), push, missing);
 }
 
 // --- what is left ---------------------------------------------------------------------------------------------------
 
 // Returns whether something violated a plane, so that groups had to be slowed; those of earlier calls stay together. If
 // not, all planes are measured.
-// @param asOne  no motion against the mean is left
-bool GuardPairs::slow(GuardNodes& nodes, bool asOne) {
+bool GuardPairs::slow(GuardNodes& nodes, int turn) {
+  const bool asOne = turn >= kSlowingsInPart;  // no motion against the mean is left
   m_violated.clear();
   for (GuardPlanes* const planes : {&m_vertexFace, &m_edgeEdge}) {
     for (std::size_t block = 0; block < planes->blocks(); ++block) {
@@ -263,17 +269,16 @@ bool GuardPairs::slow(GuardNodes& nodes, bool asOne) {
   m_isMeasured = m_violated.empty();
   if (m_isMeasured) return false;
   for (const Violation& at : m_violated) {
-    m_groups.join({at.planes->node(at.plane, 0), at.planes->node(at.plane, 1), at.planes->node(at.plane, 2),
-                   at.planes->node(at.plane, 3)});
+    m_groups.join(nodes, *at.planes, at.plane);
   }
   m_groups.measure(nodes);
   for (const Violation& at : m_violated) {
     const double before = static_cast<double>(at.planes->gap(at.plane));
     const double wanted = static_cast<double>(wantedGapOf(at.planes->gap(at.plane)));
     const double share = asOne ? 0 : kOfTheWay * (before - wanted) / (before - static_cast<double>(at.gap));
-    m_groups.limit(at.planes->node(at.plane, 0), std::max(share, 0.0));
+    m_groups.limit(nodes, *at.planes, at.plane, std::max(share, 0.0));
   }
-  m_groups.apply(nodes);
+  m_groups.apply(nodes, asOne && turn < kSlowings / 2);
   return true;
 }
 

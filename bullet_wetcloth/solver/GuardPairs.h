@@ -74,7 +74,7 @@ class GuardPairs {
   bool pass(GuardPlanes& planes, GuardNodes& nodes) const;
   btScalar keepApart(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const;
   void keepSides(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const;
-  bool slow(GuardNodes& nodes, bool asOne);
+  bool slow(GuardNodes& nodes, int turn);
 
   GuardPlanes m_vertexFace{1};
   GuardPlanes m_edgeEdge{2};

@@ -93,8 +93,8 @@ void GuardTiles::add(const GuardMesh& mesh, std::size_t firstNode) {
   const std::size_t edges = isFirst ? 0 : m_cloths.back().firstEdge + m_cloths.back().mesh->edges.size();
   const std::size_t faces = isFirst ? 0 : m_cloths.back().firstFace + m_cloths.back().mesh->faces.size();
   const std::size_t quarters = isFirst ? 0 : m_quarters.size();
-  m_cloths.push_back({&mesh, static_cast<int>(firstNode), static_cast<int>(mesh.firstTileOfNode.size()) - 1,
-                      m_tiles.size(), cells, edges, faces, quarters});
+  m_cloths.push_back({&mesh, static_cast<int>(firstNode), static_cast<int>(mesh.firstTileOfNode.size()), m_tiles.size(),
+                      cells, edges, faces, quarters});
   m_quarters.resize(quarters + toSize(quarterRows(mesh) * quarterColumns(mesh)));
   for (std::size_t k = 0; k < mesh.tiles.size(); ++k) m_tiles.push_back({m_cloths.size() - 1, static_cast<int>(k)});
   m_boxes.resize(m_tiles.size());
@@ -228,6 +228,14 @@ bool GuardTiles::isFlat(const Cloth& cloth, int tileA, int tileB) const {
   return bounds.areOfASheetThatCannotMeetItself();
 }
 
+bool GuardTiles::isWanted(std::size_t tileA, std::size_t tileB) const {
+  const std::size_t a = m_tiles[tileA].cloth;
+  const std::size_t b = m_tiles[tileB].cloth;
+  const bool isOfBodies[2] = {m_cloths[a].mesh->isOfBodies, m_cloths[b].mesh->isOfBodies};
+  if (isOfBodies[0] || isOfBodies[1]) return isOfBodies[0] != isOfBodies[1];
+  return a == b ? m_scope.self : m_scope.others;
+}
+
 void GuardTiles::findPairs(const GuardNodes& nodes, btScalar near, const Scope& scope, GuardCandidates& pairs) {
   m_nodes = &nodes;
   m_near = near;
@@ -250,9 +258,9 @@ void GuardTiles::markTilesOf(int node) {
   for (const Cloth& cloth : m_cloths) {
     const int own = node - cloth.firstNode;
     if (own < 0 || own >= cloth.nodeCount) continue;
-    const std::vector<int>& first = cloth.mesh->firstTileOfNode;
-    for (int k = first[toSize(own)]; k < first[toSize(own) + 1]; ++k) {
-      m_isNew[cloth.firstTile + toSize(cloth.mesh->tilesOfNodes[toSize(k)])] = true;
+    const GuardMesh& mesh = *cloth.mesh;
+    for (int k = mesh.firstTileOfNode[toSize(own)]; k < mesh.endTileOfNode[toSize(own)]; ++k) {
+      m_isNew[cloth.firstTile + toSize(mesh.tilesOfNodes[toSize(k)])] = true;
     }
   }
 }
@@ -336,7 +344,7 @@ void GuardTiles::sortTiles() {
 void GuardTiles::lookAtNearTiles(std::size_t a, std::size_t b) {
   const Cloth& cloth = m_cloths[m_tiles[a].cloth];
   const bool isSelf = m_tiles[a].cloth == m_tiles[b].cloth;
-  if (!(isSelf ? m_scope.self : m_scope.others)) return;
+  if (!isWanted(a, b)) return;
   if (isSelf && m_isFlat[m_tiles[a].cloth]) return;
   if (!areLookedAtAgain(static_cast<int>(a), static_cast<int>(b))) return;
   if (isSelf && isFlat(cloth, m_tiles[a].index, m_tiles[b].index)) return;

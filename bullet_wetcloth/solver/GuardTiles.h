@@ -18,7 +18,7 @@ inline namespace WETCLOTH_PRECISION {
 /// enough to meet itself (SheetBounds); then cells in the same way, and then parts.
 class GuardTiles {
  public:
-  /// Which pairs.
+  /// Which pairs; those with rigid bodies are wanted where there are any.
   struct Scope {
     bool self;
     bool others;
@@ -56,6 +56,7 @@ class GuardTiles {
     int firstColumn, lastColumn;
   };
 
+  bool isWanted(std::size_t tileA, std::size_t tileB) const;
   void include(int node, GuardBox& box) const;
   void includeVector(int from, int to, GuardBox& box) const;
   Rectangle nodesOfTile(const GuardMesh& mesh, int tile) const;

@@ -142,8 +142,8 @@ Separation separationOfEdgesAtAnEnd(const double (&nodes)[4][3]) {
   return nearest;
 }
 
-// The gap between the two nodes that are nearest along the normal becomes what it may be at most, in turns: each turn is by
-// as little as that takes.
+// The gap between the two nodes that are nearest along the normal becomes what it may be at most, in turns: each turn
+// is by as little as that takes.
 void turnApart(const double (&nodes)[4][3], int first, Separation& separation) {
   constexpr int kTurns = 8;
   constexpr double kNear = 0.99;  // of the distance

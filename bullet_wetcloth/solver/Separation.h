@@ -26,8 +26,8 @@ Separation separationOfEdges(const double (&nodes)[4][3]);
 /// The same, where an end of one of them is what is nearest: of edges that are nearly parallel the other is not exact.
 Separation separationOfEdgesAtAnEnd(const double (&nodes)[4][3]);
 
-/// Turns the normal a little where the parts are not on the two sides of a plane across it, although they do not meet: the
-/// direction between two places that are very near is not known to all its digits.
+/// Turns the normal a little where the parts are not on the two sides of a plane across it, although they do not meet:
+/// the direction between two places that are very near is not known to all its digits.
 void turnApart(const double (&nodes)[4][3], int first, Separation& separation);
 
 /// How far apart the two parts are along a direction, if they are on the two sides of a plane across it; else <= 0.

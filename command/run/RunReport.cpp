@@ -133,6 +133,7 @@ nlohmann::ordered_json RunReport::json() const {
                      {"stopped", m_guard.stopped},
                      {"halts", m_guard.halts},
                      {"meeting", m_guard.meeting}};
+    if (m_scene.clothSolver->guard->bodies) json["guard"]["inside"] = m_guard.inside;
   }
   json["centre_of_mass"] = {m_moment[0] / m_mass, m_moment[1] / m_mass, m_moment[2] / m_mass};
   json["max_speed"] = m_maxSpeed;

@@ -379,6 +379,7 @@ wetcloth::ClothSolver::Guard readGuard(JsonCursor cursor) {
   if (const auto others = cursor.find("others")) settings.others = others->boolean();
   if (const auto every = cursor.find("every")) settings.every = every->integer(1, 100);
   readNumber(cursor, "friction", Range::notNegative(), settings.friction);
+  if (const auto bodies = cursor.find("bodies")) settings.bodies = bodies->boolean();
   return settings;
 }
 

@@ -223,5 +223,15 @@ TEST(RunSolver, NoErrorsAreExpectedOfWhatWasNotMeasured) {
                 {"--error-budget = 0.5", "solver wetcloth"});
 }
 
+TEST(RunSolver, AGuardTellsWhatStoodInBodies) {
+  Json scene = hangingScene({{"guard", {{"bodies", true}}}});
+  EXPECT_TRUE(read(scene).clothSolver->guard->bodies);
+  EXPECT_EQ(runScene(scene).at("guard").at("inside"), 0);
+  scene["solver"]["guard"]["bodies"] = false;
+  EXPECT_FALSE(runScene(scene).at("guard").contains("inside"));
+  scene["solver"]["guard"]["bodies"] = 1;
+  EXPECT_NE(run(scene).err.find("/solver/guard/bodies"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace wetcloth_test::solver_test

@@ -131,10 +131,15 @@ std::vector<PassagePair> pairsThatComeNear(const PassageMesh& mesh, const std::v
   return pairs;
 }
 
-int countPassages(const PassageMesh& mesh, const std::vector<Place>& from, const std::vector<Place>& to) {
+int countPassages(const PassageMesh& mesh, const std::vector<Place>& from, const std::vector<Place>& to,
+                  const std::function<bool(const PassagePair&)>& isWanted) {
   static const ContinuousCheck fast(Tier::fast);
   static const ContinuousCheck judge(ContinuousCheck::hasExact() ? Tier::exact : Tier::conservative);
-  const std::vector<PassagePair> pairs = pairsThatComeNear(mesh, from, to);
+  std::vector<PassagePair> pairs = pairsThatComeNear(mesh, from, to);
+  if (isWanted) {
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [&](const PassagePair& pair) { return !isWanted(pair); }),
+                pairs.end());
+  }
   int count = 0;
   for (const Pair kind : {Pair::vertexFace, Pair::edgeEdge}) {
     const std::vector<Query<double>> queries = queriesOf(kind, pairs, from, to);

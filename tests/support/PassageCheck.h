@@ -8,6 +8,7 @@
 
 #include <array>
 #include <deque>
+#include <functional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -36,7 +37,9 @@ std::vector<PassagePair> pairsThatComeNear(const PassageMesh& mesh, const std::v
 
 /// How many pairs meet while nodes move on straight lines. Exact, where the library has the exact check; otherwise it
 /// never misses one.
-int countPassages(const PassageMesh& mesh, const std::vector<Place>& from, const std::vector<Place>& to);
+/// @param isWanted  of which pairs; empty: of all
+int countPassages(const PassageMesh& mesh, const std::vector<Place>& from, const std::vector<Place>& to,
+                  const std::function<bool(const PassagePair&)>& isWanted = {});
 
 /// Watches cloths from small step to small step, as ClothSolver shows them, and counts what meets.
 class PassageCheck {
