@@ -78,9 +78,10 @@ struct Expect {
     for (std::size_t i = 0; i < count; i += kLaneCount<Lanes>) {
       const Lanes at = load<Lanes>(last + i);
       const Lanes now = load<Lanes>(place + i) - at;
-      const Lanes acceleration = now - (at - load<Lanes>(before + i));
+      const Lanes earlier = at - load<Lanes>(before + i);
+      const Lanes acceleration = now - earlier;
       store(from + i, at);
-      store(way + i, now + slackOf.bent(acceleration * later));
+      store(way + i, now + slackOf.bent(acceleration * later, earlier));
       const Lanes wanted = slackOf.of(now, acceleration);
       const Lanes known = load<Lanes>(slack + i);
       store(slack + i, choose(wanted > known, wanted, known));
@@ -360,8 +361,9 @@ void ClothGuard::expectOnPresentWay(std::size_t c, int node) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const btScalar last = kept.last[axis][slot];
     const btScalar now = m_cloths[c].nodes.position[axis][slot] - last;
-    const btScalar acceleration = now - (last - kept.before[axis][slot]);
-    kept.way[axis][slot] = now + slackOf.bent(acceleration * (static_cast<btScalar>(steps - 1) / 2));
+    const btScalar earlier = last - kept.before[axis][slot];
+    const btScalar acceleration = now - earlier;
+    kept.way[axis][slot] = now + slackOf.bent(acceleration * (static_cast<btScalar>(steps - 1) / 2), earlier);
     kept.from[axis][slot] = last - kept.way[axis][slot] * static_cast<btScalar>(m_age - 1);
     slack = std::max(slack, slackOf.of(now, acceleration));
   }

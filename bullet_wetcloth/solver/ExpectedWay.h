@@ -15,10 +15,14 @@ struct WaySlack {
   btScalar ofAcceleration;  ///< share
   btScalar mostBend;        ///< in a small step [m]
 
-  /// What acceleration adds to a way in a small step, within limits [m]: the ways of neighbours differ by its noise.
+  /// What acceleration adds to a way in a small step, within limits [m]: the ways of neighbours differ by its noise, and
+  /// what lies still will do so, although gravity would have it fall before it is held.
+  /// @param before  the way in the small step before [m]
   template <class Lanes>
-  WETCLOTH_INLINE Lanes bent(const Lanes& by) const {
-    const Lanes limit = everywhere<Lanes>(mostBend);
+  WETCLOTH_INLINE Lanes bent(const Lanes& by, const Lanes& before) const {
+    const Lanes cap = everywhere<Lanes>(mostBend);
+    const Lanes size = absolute(before);
+    const Lanes limit = choose(size < cap, size, cap);
     return choose(by > limit, limit, choose(by < -limit, -limit, by));
   }
   /// @param way  along an axis, in a small step [m]
