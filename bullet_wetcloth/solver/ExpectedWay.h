@@ -15,8 +15,8 @@ struct WaySlack {
   btScalar ofAcceleration;  ///< share
   btScalar mostBend;        ///< in a small step [m]
 
-  /// What acceleration adds to a way in a small step, within limits [m]: the ways of neighbours differ by its noise, and
-  /// what lies still will do so, although gravity would have it fall before it is held.
+  /// What acceleration adds to a way in a small step, within limits [m]: the ways of neighbours differ by its noise,
+  /// and what lies still will do so, although gravity would have it fall before it is held.
   /// @param before  the way in the small step before [m]
   template <class Lanes>
   WETCLOTH_INLINE Lanes bent(const Lanes& by, const Lanes& before) const {

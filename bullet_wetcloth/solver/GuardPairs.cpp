@@ -6,6 +6,7 @@
 #include "bullet_wetcloth/numerics/Quad.h"
 #include "bullet_wetcloth/solver/PlaneMaker.h"
 #include "bullet_wetcloth/solver/Separation.h"
+#include "bullet_wetcloth/solver/TurnedPlane.h"
 
 #include <algorithm>
 #include <cmath>
@@ -256,8 +257,8 @@ void GuardPairs::keepSides(const GuardPlanes& planes, std::size_t plane, GuardNo
 
 // Returns whether something violated a plane, so that groups had to be slowed; those of earlier calls stay together. If
 // not, all planes are measured.
-bool GuardPairs::slow(GuardNodes& nodes, int turn) {
-  const bool asOne = turn >= kSlowingsInPart;  // no motion against the mean is left
+bool GuardPairs::slow(GuardNodes& nodes, int round) {
+  const bool asOne = round >= kSlowingsInPart;  // no motion against the mean is left
   m_violated.clear();
   for (GuardPlanes* const planes : {&m_vertexFace, &m_edgeEdge}) {
     for (std::size_t block = 0; block < planes->blocks(); ++block) {
@@ -266,6 +267,9 @@ bool GuardPairs::slow(GuardNodes& nodes, int turn) {
       });
     }
   }
+  const auto end = std::remove_if(m_violated.begin(), m_violated.end(),
+                                  [&](const Violation& at) { return turn(*at.planes, at.plane, nodes); });
+  m_violated.erase(end, m_violated.end());
   m_isMeasured = m_violated.empty();
   if (m_isMeasured) return false;
   for (const Violation& at : m_violated) {
@@ -278,8 +282,18 @@ bool GuardPairs::slow(GuardNodes& nodes, int turn) {
     const double share = asOne ? 0 : kOfTheWay * (before - wanted) / (before - static_cast<double>(at.gap));
     m_groups.limit(nodes, *at.planes, at.plane, std::max(share, 0.0));
   }
-  m_groups.apply(nodes, asOne && turn < kSlowings / 2);
+  m_groups.apply(nodes, asOne && round < kSlowings / 2);
   return true;
+}
+
+// Whether another plane is between the parts. It stands there from now on.
+bool GuardPairs::turn(GuardPlanes& planes, std::size_t plane, const GuardNodes& nodes) const {
+  const double least = static_cast<double>(kSmall * m_contact.rounding);
+  const std::optional<GuardPlanes::Plane> turned = turnedPlane(planes.pair(plane), nodes, planes.first(), least);
+  if (!turned) return false;
+  planes.set(plane, *turned);
+  return !isViolated(planes, plane,
+                     planes.measure(plane / GuardPlanes::kAtOnce, nodes.to).gap[plane % GuardPlanes::kAtOnce]);
 }
 
 // Imposed nodes that move against each other may leave no room.

@@ -55,7 +55,7 @@ class GuardPairs {
 
  private:
   struct Violation {
-    const GuardPlanes* planes;
+    GuardPlanes* planes;
     std::size_t plane;
     btScalar gap;  // [m]
   };
@@ -74,7 +74,8 @@ class GuardPairs {
   bool pass(GuardPlanes& planes, GuardNodes& nodes) const;
   btScalar keepApart(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const;
   void keepSides(const GuardPlanes& planes, std::size_t plane, GuardNodes& nodes) const;
-  bool slow(GuardNodes& nodes, int turn);
+  bool slow(GuardNodes& nodes, int round);
+  bool turn(GuardPlanes& planes, std::size_t plane, const GuardNodes& nodes) const;
 
   GuardPlanes m_vertexFace{1};
   GuardPlanes m_edgeEdge{2};

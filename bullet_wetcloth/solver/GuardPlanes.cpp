@@ -53,15 +53,22 @@ void GuardPlanes::add(const Plane& plane) {
     std::fill_n(m_kept.back().gap, kAtOnce, std::numeric_limits<btScalar>::infinity());
     std::fill_n(m_kept.back().apart, kAtOnce, std::numeric_limits<btScalar>::infinity());
   }
-  m_tiles.push_back({{plane.pair.tile[0], plane.pair.tile[1]}});
-  Block& block = m_blocks.back();
+  m_tiles.push_back({});
+  set(m_size - 1, plane);
+}
+
+void GuardPlanes::set(std::size_t index, const Plane& plane) {
+  const std::size_t k = index % kAtOnce;
+  Block& block = m_blocks[index / kAtOnce];
+  Measure& kept = m_kept[index / kAtOnce];
+  m_tiles[index] = {{plane.pair.tile[0], plane.pair.tile[1]}};
   for (std::size_t which = 0; which < 4; ++which) {
     block.node[which][k] = plane.pair.node[which];
     block.weight[which][k] = plane.weights[which];
   }
   for (std::size_t axis = 0; axis < 3; ++axis) block.normal[axis][k] = plane.normal[axis];
-  m_kept.back().gap[k] = plane.gap;
-  m_kept.back().apart[k] = plane.apart;
+  kept.gap[k] = plane.gap;
+  kept.apart[k] = plane.apart;
 }
 
 void GuardPlanes::copy(std::size_t from, std::size_t to) {

@@ -35,6 +35,11 @@ class GuardPlanes {
 
   void clear();
   void add(const Plane& plane);
+  /// Puts another plane in the place of this one, between the same parts.
+  void set(std::size_t index, const Plane& plane);
+  GuardPair pair(std::size_t plane) const {
+    return {{node(plane, 0), node(plane, 1), node(plane, 2), node(plane, 3)}, {tile(plane, 0), tile(plane, 1)}};
+  }
   std::size_t size() const { return m_size; }
   int first() const { return m_first; }
 
