@@ -33,11 +33,11 @@ constexpr int kMostLooks = 6;                         // in a small step
 // Of a number near 1. In float64 more than double rounds, in which gaps near it are computed.
 constexpr btScalar kRoundingAtOne = std::max(std::numeric_limits<btScalar>::epsilon(), btScalar(1e-12));
 
-// Whether all places along one axis are where they were expected.
+// Whether all places are where they were expected.
 struct OnTheWay {
-  const btScalar* place;
-  const btScalar* from;
-  const btScalar* way;
+  btScalar* const (&place)[3];
+  const PackedNodes::Lane (&from)[3];
+  const PackedNodes::Lane (&way)[3];
   const btScalar* slack;
   std::size_t count;
   btScalar age;
@@ -46,16 +46,38 @@ struct OnTheWay {
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
     const Lanes used = everywhere<Lanes>(kUsedSlack);
-    Lanes farthest = everywhere<Lanes>(-std::numeric_limits<btScalar>::infinity());
+    auto isOn = used > everywhere<Lanes>(0);
     for (std::size_t i = 0; i < count; i += kLaneCount<Lanes>) {
-      const Lanes off =
-          load<Lanes>(place + i) - (load<Lanes>(from + i) + load<Lanes>(way + i) * everywhere<Lanes>(age));
-      const Lanes beyond = absolute(off) - load<Lanes>(slack + i) * used;
-      farthest = choose(beyond <= farthest, farthest, beyond);
+      const Lanes limit = load<Lanes>(slack + i) * used;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Lanes expected =
+            load<Lanes>(from[axis].data() + i) + load<Lanes>(way[axis].data() + i) * everywhere<Lanes>(age);
+        isOn = isOn & (absolute(load<Lanes>(place[axis] + i) - expected) <= limit);
+      }
     }
     btScalar parts[kLaneCount<Lanes>];
-    store(parts, farthest);
-    for (const btScalar part : parts) isOnIt = isOnIt && part <= 0;
+    store(parts, choose(isOn, everywhere<Lanes>(1), everywhere<Lanes>(0)));
+    for (const btScalar part : parts) isOnIt = isOnIt && part > 0;
+  }
+};
+
+// The largest of a coordinate on either side of a place.
+struct Farthest {
+  const btScalar* place;
+  std::size_t count;
+  btScalar away;
+  btScalar& farthest;
+
+  template <class Lanes>
+  WETCLOTH_INLINE void run() const {
+    Lanes most = everywhere<Lanes>(farthest);
+    for (std::size_t i = 0; i < count; i += kLaneCount<Lanes>) {
+      const Lanes size = absolute(load<Lanes>(place + i) + everywhere<Lanes>(away));
+      most = choose(size > most, size, most);
+    }
+    btScalar parts[kLaneCount<Lanes>];
+    store(parts, most);
+    for (const btScalar part : parts) farthest = std::max(farthest, part);
   }
 };
 
@@ -162,9 +184,7 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
   for (const Cloth& cloth : cloths) {
     const btVector3 away = cloth.origin - cloths.front().origin;
     for (int axis = 0; axis < 3; ++axis) {
-      for (std::size_t i = 0; i < cloth.nodes.count; ++i) {
-        farthest = std::max(farthest, std::fabs(cloth.nodes.position[axis][i] + away[axis]));
-      }
+      runOnBestLanes(Farthest{cloth.nodes.position[axis], cloth.nodes.count, away[axis], farthest});
     }
   }
   m_rounding = farthest * kRoundingAtOne;
@@ -257,10 +277,10 @@ void ClothGuard::stopAll() {
 bool ClothGuard::isWhereExpected() const {
   bool isOnIt = true;
   for (std::size_t c = 0; c < m_cloths.size() && isOnIt; ++c) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      runOnBestLanes(OnTheWay{m_cloths[c].nodes.position[axis], m_kept[c].from[axis].data(), m_kept[c].way[axis].data(),
-                              m_kept[c].slack.data(), m_cloths[c].nodes.count, static_cast<btScalar>(m_age), isOnIt});
-    }
+    const Kept& kept = m_kept[c];
+    const MovingNodes& nodes = m_cloths[c].nodes;
+    runOnBestLanes(OnTheWay{nodes.position, kept.from, kept.way, kept.slack.data(), nodes.count,
+                            static_cast<btScalar>(m_age), isOnIt});
   }
   return isOnIt;
 }

@@ -273,6 +273,7 @@ void PackedCloth::takeSmallStep(int index) {
   m_links.solveOthers(links);
   if (m_links.passes() > 1) forEachPart(m_tiles, [&](std::size_t tile) { m_links.solveTileBack(links, tile); });
   m_tethers.project(nodes);
+  if (m_isGuarded && index == m_count - 1) m_pins.arrive(m_nodes);
 }
 
 void PackedCloth::endSmallSteps() {

@@ -20,10 +20,19 @@ void PinnedWays::spread(LocalNodes& nodes, btScalar dt) {
     if (place == last) continue;
     pin.isMoved = true;
     pin.velocity.setValue(nodes.velocity[0][slot], nodes.velocity[1][slot], nodes.velocity[2][slot]);
+    pin.aim = place + pin.velocity * dt;
     for (int axis = 0; axis < 3; ++axis) {
       nodes.position[axis][slot] = last[axis];
       nodes.velocity[axis][slot] += (place[axis] - last[axis]) / dt;
     }
+  }
+}
+
+void PinnedWays::arrive(LocalNodes& nodes) const {
+  for (const Pin& pin : m_pins) {
+    if (!pin.isMoved) continue;
+    const std::size_t slot = nodes.slot(toSize(pin.node));
+    for (int axis = 0; axis < 3; ++axis) nodes.position[axis][slot] = pin.aim[axis];
   }
 }
 
@@ -38,7 +47,7 @@ void PinnedWays::end(LocalNodes& nodes) {
     const std::size_t slot = nodes.slot(toSize(node));
     if (nodes.inverseMass[slot] > 0) continue;
     const btVector3 place(nodes.position[0][slot], nodes.position[1][slot], nodes.position[2][slot]);
-    m_pins.push_back({node, place + nodes.origin(), btVector3(0, 0, 0), false});
+    m_pins.push_back({node, place + nodes.origin(), btVector3(0, 0, 0), btVector3(0, 0, 0), false});
   }
 }
 

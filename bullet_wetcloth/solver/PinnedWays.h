@@ -20,6 +20,8 @@ class PinnedWays {
   /// Puts pinned nodes back to where they were at the end of the last step, with the velocity that brings them to where
   /// they are now in dt [s].
   void spread(LocalNodes& nodes, btScalar dt);
+  /// In the last small step: they are exactly where they were put, however the way there was rounded.
+  void arrive(LocalNodes& nodes) const;
   /// After the small steps: gives them their own velocities, and remembers where they are.
   void end(LocalNodes& nodes);
   /// As if it had seen no step yet.
@@ -32,6 +34,7 @@ class PinnedWays {
     int node;
     btVector3 place;     // at the end of the last step, in the world [m]
     btVector3 velocity;  // its own, while another one brings it to its place [m/s]
+    btVector3 aim;       // where it was put, in the nodes' arrays, and how far its own velocity takes it from there [m]
     bool isMoved;
   };
   std::vector<Pin> m_pins;

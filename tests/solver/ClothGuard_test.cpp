@@ -150,6 +150,28 @@ TEST(ClothGuardPromise, ASheetIsWrung) {
   EXPECT_LE(stretch, 1.5 * itsOwn) << "links that the rods pull stretch anyway; layers in the way do not double that";
 }
 
+// What the guard has seen of a pin is where the application put it, to the last bit: the way there is a sum of small
+// steps, each of which is rounded.
+TEST(ClothGuardPromise, PinsArriveWhereTheyWerePut) {
+  GuardScene scene;
+  const Wringing wringing(scene);
+  std::vector<btVector3> shown(std::size_t(wringing.body->m_nodes.size()));
+  scene.solver().setSmallStepCallback([&](const wetcloth::ClothSolver::SmallStepView& view) {
+    for (std::size_t node = 0; node < shown.size(); ++node) {
+      const std::size_t slot = std::size_t(view.slots[node]);
+      shown[node] = btVector3(view.x[0][slot], view.x[1][slot], view.x[2][slot]) + view.origin;
+    }
+  });
+  for (int step = 1; step <= 10; ++step) {
+    wringing.turn(step);
+    scene.step(1);
+    for (int node = 0; node < wringing.body->m_nodes.size(); ++node) {
+      if (wringing.body->m_nodes[node].m_im > 0) continue;
+      EXPECT_EQ(shown[std::size_t(node)], wringing.body->m_nodes[node].m_x) << node;
+    }
+  }
+}
+
 // Two cloths in weightlessness that fly into each other: what one loses the other gains.
 TEST_P(ClothGuard, ClothsThatCollideKeepTheirMomentum) {
   GuardScene scene(Guard(), GetParam(), kNoGravity);
