@@ -161,7 +161,7 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
   double edge = std::numeric_limits<double>::infinity();
   for (const Cloth& cloth : cloths) {
     m_first.push_back(count);
-    m_tiles.add(*cloth.mesh, count);
+    m_tiles.add(*cloth.mesh, count, cloth.isStill || cloth.mesh->isOfBodies);
     count += toSize(cloth.nodeCount);
     if (cloth.mesh->edgeLength > 0) edge = std::min(edge, cloth.mesh->edgeLength);
   }
@@ -418,7 +418,7 @@ void ClothGuard::gather() {
         m_nodes.from[i].at[axis] = m_kept[c].last[axis][slot] + away[static_cast<int>(axis)];
         m_nodes.to[i].at[axis] = cloth.nodes.position[axis][slot] + away[static_cast<int>(axis)];
       }
-      m_nodes.inverseMass[i] = cloth.nodes.inverseMass[slot];
+      m_nodes.inverseMass[i] = cloth.isStill ? 0 : cloth.nodes.inverseMass[slot];
     }
   }
 }
@@ -426,6 +426,7 @@ void ClothGuard::gather() {
 void ClothGuard::scatter() {
   for (std::size_t c = 0; c < m_cloths.size(); ++c) {
     const Cloth& cloth = m_cloths[c];
+    if (cloth.isStill) continue;
     const btVector3 away = cloth.origin - m_cloths.front().origin;
     for (int node = 0; node < cloth.nodeCount; ++node) {
       const std::size_t slot = toSize(cloth.slots[node]);

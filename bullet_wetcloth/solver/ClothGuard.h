@@ -31,8 +31,9 @@ class ClothGuard {
     MovingNodes nodes;
     const int* slots;  ///< of its nodes
     int nodeCount;
-    btVector3 origin;  ///< of its places, whole numbers [m]
-    btScalar h;        ///< of its small steps [s]
+    btVector3 origin;      ///< of its places, whole numbers [m]
+    btScalar h;            ///< of its small steps [s]
+    bool isStill = false;  ///< it is not stepped: nothing moves it
   };
 
   /// Before the first small step of a step: nodes stand where they were at its end, and pins where they come from.

@@ -105,6 +105,7 @@ class ClothSolver::Impl {
   ClothGuard guard;
   std::vector<PackedCloth*> guarded;            // in this step
   std::vector<ClothGuard::Cloth> guardedNodes;  // theirs, and those of rigid bodies
+  std::vector<ClothGuard::Cloth> standing;      // those that are not stepped
   GuardBodies bodies;
   std::vector<GuardBodies::Cloth> amongBodies;  // those that are guarded
   long long mostInside = 0;
@@ -261,6 +262,7 @@ void ClothSolver::processCollision(btSoftBody* body, btSoftBody* other) {
 void ClothSolver::Impl::beginGuard(int smallSteps) {
   guardedNodes.clear();
   for (PackedCloth* const cloth : guarded) guardedNodes.push_back(cloth->guarded());
+  guardedNodes.insert(guardedNodes.end(), standing.begin(), standing.end());
   const bool hasBodies = parameters.guard->bodies && !bodies.isEmpty();
   if (hasBodies) guardedNodes.push_back(bodies.guarded(guardedNodes.front().h));
   guard.begin(guardedNodes, *parameters.guard, smallSteps, hasBodies ? &bodies.exemptions() : nullptr);
@@ -270,10 +272,15 @@ void ClothSolver::Impl::beginGuard(int smallSteps) {
 void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& softBodies, btScalar dt) {
   guarded.clear();
   amongBodies.clear();
+  standing.clear();
   int count = 0;
   for (int k = 0; k < softBodies.size(); ++k) {
-    Taken* const taken = softBodies[k]->isActive() ? find(*softBodies[k]) : nullptr;
-    if (!taken || !taken->cloth.beginSmallSteps(parameters)) continue;
+    Taken* const taken = find(*softBodies[k]);
+    if (!taken) continue;
+    if (!softBodies[k]->isActive() || !taken->cloth.beginSmallSteps(parameters)) {
+      if (const std::optional<ClothGuard::Cloth> still = taken->cloth.standing()) standing.push_back(*still);
+      continue;
+    }
     guarded.push_back(&taken->cloth);
     amongBodies.push_back({softBodies[k], taken->cloth.guarded()});
     count = std::max(count, taken->cloth.smallSteps());
@@ -281,7 +288,9 @@ void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& so
   if (guarded.empty()) return;
   const bool hasBodies = parameters.guard->bodies;
   if (hasBodies) {
-    bodies.begin(amongBodies, parameters.guard->thickness, dt);
+    int others = 0;
+    for (const ClothGuard::Cloth& cloth : standing) others += cloth.nodeCount;
+    bodies.begin(amongBodies, others, parameters.guard->thickness, dt);
     mostInside = std::max(mostInside, bodies.inside());
   } else {
     bodies.forget();

@@ -99,7 +99,8 @@ bool GuardBodies::covers(const std::vector<Cloth>& cloths) const {
 
 // --- the bodies -----------------------------------------------------------------------------------------------------
 
-void GuardBodies::begin(const std::vector<Cloth>& cloths, double thickness, btScalar dt) {
+void GuardBodies::begin(const std::vector<Cloth>& cloths, int others, double thickness, btScalar dt) {
+  m_others = others;
   m_thickness = thickness;
   m_dt = static_cast<double>(dt);
   m_origin = bodyPointOf(cloths.front().guarded.origin);
@@ -121,7 +122,7 @@ void GuardBodies::begin(const std::vector<Cloth>& cloths, double thickness, btSc
 
 void GuardBodies::gather(const std::vector<Cloth>& cloths, double share) {
   if (share > 0) bound(cloths);
-  int firstOfBodies = 0;
+  int firstOfBodies = m_others;
   BodyBox around;
   for (std::size_t k = 0; k < cloths.size(); ++k) {
     firstOfBodies += cloths[k].guarded.nodeCount;

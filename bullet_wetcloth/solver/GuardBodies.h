@@ -29,9 +29,10 @@ class GuardBodies {
   };
 
   /// Before the first small step: which bodies there are.
+  /// @param others     nodes of other cloths that the guard has after these
   /// @param thickness  of the guard [m]
   /// @param dt         of the step [s]
-  void begin(const std::vector<Cloth>& cloths, double thickness, btScalar dt);
+  void begin(const std::vector<Cloth>& cloths, int others, double thickness, btScalar dt);
   /// Takes the surfaces that the cloths may come to from where they are now, after this share of the step.
   void gather(const std::vector<Cloth>& cloths, double share);
   /// Whether the cloths are still where all surfaces around were taken.
@@ -79,6 +80,7 @@ class GuardBodies {
   StandingFaces m_standing;
   GuardExemptions m_exemptions;
   BodyPoint m_origin = {0, 0, 0};  // of the guard [m]
+  int m_others = 0;
   double m_thickness = 0;
   double m_edge = 0;  // of the finest cloth, the mean [m]
   double m_dt = 0;

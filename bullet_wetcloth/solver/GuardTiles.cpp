@@ -87,14 +87,14 @@ void GuardTiles::clear() {
   m_tiles.clear();
 }
 
-void GuardTiles::add(const GuardMesh& mesh, std::size_t firstNode) {
+void GuardTiles::add(const GuardMesh& mesh, std::size_t firstNode, bool isImposed) {
   const bool isFirst = m_cloths.empty();
   const std::size_t cells = isFirst ? 0 : m_cloths.back().firstCell + m_cloths.back().mesh->cells.size();
   const std::size_t edges = isFirst ? 0 : m_cloths.back().firstEdge + m_cloths.back().mesh->edges.size();
   const std::size_t faces = isFirst ? 0 : m_cloths.back().firstFace + m_cloths.back().mesh->faces.size();
   const std::size_t quarters = isFirst ? 0 : m_quarters.size();
-  m_cloths.push_back({&mesh, static_cast<int>(firstNode), static_cast<int>(mesh.firstTileOfNode.size()), m_tiles.size(),
-                      cells, edges, faces, quarters});
+  m_cloths.push_back({&mesh, static_cast<int>(firstNode), static_cast<int>(mesh.firstTileOfNode.size()), isImposed,
+                      m_tiles.size(), cells, edges, faces, quarters});
   m_quarters.resize(quarters + toSize(quarterRows(mesh) * quarterColumns(mesh)));
   for (std::size_t k = 0; k < mesh.tiles.size(); ++k) m_tiles.push_back({m_cloths.size() - 1, static_cast<int>(k)});
   m_boxes.resize(m_tiles.size());
@@ -231,8 +231,8 @@ bool GuardTiles::isFlat(const Cloth& cloth, int tileA, int tileB) const {
 bool GuardTiles::isWanted(std::size_t tileA, std::size_t tileB) const {
   const std::size_t a = m_tiles[tileA].cloth;
   const std::size_t b = m_tiles[tileB].cloth;
-  const bool isOfBodies[2] = {m_cloths[a].mesh->isOfBodies, m_cloths[b].mesh->isOfBodies};
-  if (isOfBodies[0] || isOfBodies[1]) return isOfBodies[0] != isOfBodies[1];
+  if (m_cloths[a].isImposed && m_cloths[b].isImposed) return false;
+  if (m_cloths[a].mesh->isOfBodies || m_cloths[b].mesh->isOfBodies) return true;
   return a == b ? m_scope.self : m_scope.others;
 }
 

@@ -27,7 +27,8 @@ class GuardTiles {
   /// Forgets all cloths.
   void clear();
   /// A cloth whose nodes begin with this one.
-  void add(const GuardMesh& mesh, std::size_t firstNode);
+  /// @param isImposed  nothing moves it: it is no pair with itself, nor with another one that is
+  void add(const GuardMesh& mesh, std::size_t firstNode, bool isImposed = false);
   /// Appends the pairs that may meet or come nearer than this [m]. A pair whose parts share a node is none.
   void findPairs(const GuardNodes& nodes, btScalar near, const Scope& scope, GuardCandidates& pairs);
   /// After these nodes are expected elsewhere: appends the pairs of all tiles of which that may change something. What
@@ -40,6 +41,7 @@ class GuardTiles {
     const GuardMesh* mesh;
     int firstNode;
     int nodeCount;
+    bool isImposed;
     std::size_t firstTile;
     std::size_t firstCell;
     std::size_t firstEdge;

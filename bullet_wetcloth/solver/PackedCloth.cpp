@@ -292,6 +292,14 @@ ClothGuard::Cloth PackedCloth::guarded() {
   return {m_guardMesh.get(), m_nodes.moving(), m_nodes.slots(), m_nodes.nodeCount(), m_nodes.origin(), m_step.h};
 }
 
+std::optional<ClothGuard::Cloth> PackedCloth::standing() {
+  followMesh();
+  if (!m_nodes.take()) return std::nullopt;
+  ClothGuard::Cloth cloth = guarded();
+  cloth.isStill = true;
+  return cloth;
+}
+
 void PackedCloth::finish() {
   if (!m_isSolved) return;
   m_normals.compute(m_nodes.moving());

@@ -71,6 +71,9 @@ class PackedCloth {
   void endSmallSteps();
   /// What a guard needs of it between them.
   ClothGuard::Cloth guarded();
+  /// The same of one that has no small steps, since it sleeps or its time stands still; nothing when a node is not
+  /// finite.
+  std::optional<ClothGuard::Cloth> standing();
   /// Writes back what Bullet and applications read.
   void finish();
 

@@ -34,6 +34,23 @@ TEST(ClothGuardLife, ClothsComeAndGo) {
   EXPECT_EQ(scene.totals().halts, 0);
 }
 
+// What the application has switched off is not stepped: it lies where it is, in mid-air, and holds another one up.
+TEST(ClothGuardLife, AClothThatIsNotSimulatedIsNotPassed) {
+  GuardScene scene;
+  btSoftBody& sleeper = scene.add(levelSheet(9, 0.8, btVector3(0, 0, 0)));
+  btSoftBody& body = scene.add(levelSheet(7, 0.4, btVector3(btScalar(0.01), btScalar(0.1), btScalar(0.02))));
+  sleeper.forceActivationState(DISABLE_SIMULATION);
+  scene.step(90);
+  for (int k = 0; k < sleeper.m_nodes.size(); ++k) EXPECT_EQ(sleeper.m_nodes[k].m_x.y(), 0) << k;
+  for (int k = 0; k < body.m_nodes.size(); ++k) {
+    EXPECT_GT(body.m_nodes[k].m_x.y(), 0) << k;
+    EXPECT_LT(body.m_nodes[k].m_x.y(), 0.01) << k;
+  }
+  EXPECT_LT(rmsSpeed(body), 0.02);
+  EXPECT_EQ(scene.totals().forced, 0);
+  EXPECT_EQ(scene.totals().halts, 0);
+}
+
 void setGuard(GuardScene& scene, std::optional<Guard> guard) {
   wetcloth::ClothSolver::Parameters parameters = scene.solver().parameters();
   parameters.guard = guard;
