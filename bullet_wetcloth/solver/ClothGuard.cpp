@@ -28,7 +28,7 @@ constexpr double kRestless = 0.001;                  // share of nodes that may 
 constexpr btScalar kRoundingsOfSlack = 200;
 constexpr btScalar kPartingOfEdge = btScalar(0.001);  // in a small step
 constexpr btScalar kUsedSlack = btScalar(0.9);        // the rest is for rounding
-constexpr int kMostLooks = 6;                         // in a small step
+constexpr int kMostLooks = 12;                        // in a small step
 
 // Of a number near 1. In float64 more than double rounds, in which gaps near it are computed.
 constexpr btScalar kRoundingAtOne = std::max(std::numeric_limits<btScalar>::epsilon(), btScalar(1e-12));
