@@ -102,7 +102,10 @@ wetcloth::WetCloth* CaseScene::wet(btSoftBody& body, const wetcloth::Fabric& fab
 wetcloth::CollisionAudit* CaseScene::audit(btSoftBody& body) {
   if (isPlainBullet()) return nullptr;
   m_bullet->wet().setLog({});
-  return &m_bullet->wet().add(body, wetcloth::Fabric::cotton()).add<wetcloth::CollisionAudit>();
+  wetcloth::CollisionAudit::Parameters parameters;
+  // Edges side by side in flat cloth that stretches may pass for crossing by any other.
+  if (wetcloth::collision::ContinuousCheck::hasExact()) parameters.tier = wetcloth::collision::Tier::exact;
+  return &m_bullet->wet().add(body, wetcloth::Fabric::cotton()).add<wetcloth::CollisionAudit>(parameters);
 }
 
 void CaseScene::guardBy(const wetcloth::ClothSolver::Guard& guard) {
