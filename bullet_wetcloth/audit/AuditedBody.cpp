@@ -52,7 +52,7 @@ void AuditedBody::takeSmallStep(int index) {
 
 void AuditedBody::endSmallSteps() {
   if (!m_steps) return;
-  m_steps->faces.correct(*body());
+  m_steps->faces.correct(*body(), smallSteps() > 0);
   m_steps->record->clear();
 }
 

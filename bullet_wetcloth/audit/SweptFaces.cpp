@@ -214,9 +214,11 @@ void SweptFaces::stand() {
   }
 }
 
-void SweptFaces::correct(const btSoftBody& body) {
+void SweptFaces::correct(const btSoftBody& body, bool arePinsLeft) {
   for (std::size_t i = 0; i < m_positions.size(); ++i) {
-    const btVector3& now = body.m_nodes[static_cast<int>(i)].m_x;
+    const btSoftBody::Node& node = body.m_nodes[static_cast<int>(i)];
+    if (arePinsLeft && !(node.m_im > 0)) continue;
+    const btVector3& now = node.m_x;
     for (int k = 0; k < 3; ++k) {
       double(&at)[2] = m_positions[i].at[k];
       if (static_cast<btScalar>(at[1]) != now[k]) at[1] = static_cast<double>(now[k]);

@@ -68,7 +68,8 @@ class SweptFaces {
   /// The end becomes the start, too.
   void stand();
   /// The body's present position becomes the end of each node that is not there already, up to rounding.
-  void correct(const btSoftBody& body);
+  /// @param arePinsLeft  but of pinned nodes: the way to where they were put since belongs to the next small steps
+  void correct(const btSoftBody& body, bool arePinsLeft);
   /// Fits the boxes to the positions. A face with a node that is not finite and what belongs to it get empty boxes.
   void refit();
 

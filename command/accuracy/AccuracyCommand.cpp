@@ -160,7 +160,8 @@ command::Command addAccuracyCommand(CLI::App& line) {
   CLI::App* const app = line.add_subcommand("accuracy", "Measure how wrong each way to compute is, and what it takes");
   const auto options = std::make_shared<AccuracyOptions>();
   app->add_option("--study", options->study,
-                  "One of: absorption, diffusion, splitting, wind, pace, cloth, mesh, collision, paper; precision: all of "
+                  "One of: absorption, diffusion, splitting, wind, pace, cloth, mesh, collision, guard, paper; "
+                  "precision: all of "
                   "them, quick, in float32 and float64; alone: all in this precision; all")
       ->check(command::oneOf("--study", studyWords()))
       ->capture_default_str();

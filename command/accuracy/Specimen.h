@@ -26,6 +26,8 @@ class Specimen {
   wetcloth::WetCloth& cloth() { return *m_cloth; }
   double nodes() const { return m_body->m_nodes.size(); }
 
+  /// A box whose top is at y = 0.
+  void addFloor();
   /// One of Bullet's steps, ours within.
   void substep(double dt) { m_world.substep(btScalar(dt)); }
   /// Our part of a step alone: Bullet neither moves nor collides anything.

@@ -12,6 +12,7 @@ const std::vector<std::pair<std::string, CarryOutStudies>>& studyNames() {
                                                                           {"cloth", studyCloth},
                                                                           {"mesh", studyMesh},
                                                                           {"collision", studyCollision},
+                                                                          {"guard", studyGuard},
                                                                           {"paper", studyPaper}};
   return names;
 }

@@ -27,6 +27,8 @@ std::vector<Study> studyPace(const Effort& effort, const TellProgress& tell);
 std::vector<Study> studyMesh(const Effort& effort, const TellProgress& tell);
 /// The collision checks on real queries with exact answers.
 std::vector<Study> studyCollision(const Effort& effort, const TellProgress& tell);
+/// The guard of ClothSolver: how far ahead it looks and how thick layers are, in a heap and a wrung towel.
+std::vector<Study> studyGuard(const Effort& effort, const TellProgress& tell);
 /// The paper's own choices against physics.
 std::vector<Study> studyPaper(const Effort& effort, const TellProgress& tell);
 

@@ -76,7 +76,8 @@ void measureCost(const CostOptions& options) {
 }  // namespace
 
 Command addCostCommand(CLI::App& line) {
-  CLI::App* const app = line.add_subcommand("cost", "Measure what each effect takes, beside Bullet's own step");
+  CLI::App* const app =
+      line.add_subcommand("cost", "Measure what each effect and the guard take, beside Bullet's own step");
   const auto options = std::make_shared<CostOptions>();
   app->add_option("scene", options->scene, "Scene file; default is a cloth of 64 x 64 nodes with every effect");
   app->add_option("--steps", options->steps,

@@ -13,8 +13,9 @@ double floorOf(const CostEstimate& twins) { return std::max(std::fabs(twins.medi
 constexpr const char* tableLegend =
     "Each effect is toggled: what a world with all effects takes in its steps more than one without this effect, the\n"
     "worlds taking turns in one run; medians, of processor time, over groups of steps in which water moves once. \"ns\n"
-    "per node\" and \"% of Bullet's step\" count our own part of the step, \"mean\" also what is done in some steps\n"
-    "only; \"whole step\" has what the effect makes Bullet do, and Bullet's noise. \"< x\": not to be told from "
+    "per node\" and \"% of Bullet's step\" count our own part of the step, of the guard, which is in the solver, the\n"
+    "whole, \"mean\" also what is done in some steps only; \"whole step\" has what the effect makes Bullet do, and\n"
+    "Bullet's noise. \"< x\": not to be told from "
     "nothing,\n"
     "where x is what two identical worlds differ by or the\n"
     "median's interval of 95 %, the larger of the two.\n";
@@ -39,11 +40,13 @@ CostReport::CostReport(const CostRun& run)
       m_oursFloor(floorOf(estimateDifference(run.all().ours, run.twin().ours))),
       m_wholeFloor(floorOf(estimateDifference(run.all().step, run.twin().step))),
       m_idleRatio(estimateRatio(run.idle().step, run.plain().step)),
-      m_all{"all", estimate(run.all().ours), estimateDifference(run.all().step, run.plain().step)} {
+      m_all{"all", estimate(run.all().ours), estimateDifference(run.all().step, run.plain().step), m_oursFloor} {
   for (std::size_t i = 0; i < run.effects().size(); ++i) {
     const CostRun::Samples& without = run.without(i);
-    m_effects.push_back({run.effects()[i], estimateDifference(run.all().ours, without.ours),
-                         estimateDifference(run.all().step, without.step)});
+    const CostEstimate whole = estimateDifference(run.all().step, without.step);
+    const bool isGuard = run.effects()[i] == CostWorld::guard;
+    const CostEstimate ours = isGuard ? whole : estimateDifference(run.all().ours, without.ours);
+    m_effects.push_back({run.effects()[i], ours, whole, isGuard ? m_wholeFloor : m_oursFloor});
   }
 }
 

@@ -30,12 +30,13 @@ class CostReport {
  private:
   struct Cost {
     std::string name;
-    CostEstimate ours;       ///< of our part of the step [s]
+    CostEstimate ours;       ///< of our part of the step; of the guard, which is in Bullet's, the whole [s]
     CostEstimate wholeStep;  ///< also of what it makes Bullet do [s]
+    double floor;            ///< below which `ours` cannot be told [s]
   };
 
   Finding percent(const CostEstimate& difference, double floor) const;
-  Finding oursPercent(const Cost& cost) const { return percent(cost.ours, m_oursFloor); }
+  Finding oursPercent(const Cost& cost) const { return percent(cost.ours, cost.floor); }
   Finding wholePercent(const Cost& cost) const { return percent(cost.wholeStep, m_wholeFloor); }
   Finding idlePercent() const;
   double nanosecondsPerNode(double seconds) const { return 1e9 * seconds / m_run.nodes(); }

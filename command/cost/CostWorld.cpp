@@ -23,6 +23,10 @@ std::string keyOf(const wetcloth::Effect& effect) {
   return key;
 }
 
+void leaveOutGuard(Scene& scene) {
+  if (scene.clothSolver) scene.clothSolver->guard.reset();
+}
+
 }  // namespace
 
 /// The last effect of the last cloth: when it runs, our part of the step is over. Bullet's worlds call us before they
@@ -41,12 +45,14 @@ class CostWorld::Stopwatch : public wetcloth::Effect {
 CostWorld CostWorld::idle(const Scene& scene) {
   Scene bare = leaveOut(scene, [](const EffectScene&) { return true; });
   for (ClothScene& cloth : bare.cloths) cloth.initialSaturation = 0;
+  leaveOutGuard(bare);
   return CostWorld(bare, SceneWorld::Kind::wet);
 }
 
 CostWorld CostWorld::timed(const Scene& scene, const std::string& without) {
-  CostWorld world(leaveOut(scene, [&](const EffectScene& effect) { return effect.key == without; }),
-                  SceneWorld::Kind::wet);
+  Scene rest = leaveOut(scene, [&](const EffectScene& effect) { return effect.key == without; });
+  if (without == guard) leaveOutGuard(rest);
+  CostWorld world(rest, SceneWorld::Kind::wet);
   auto stopwatch = std::make_unique<Stopwatch>();
   world.m_stopwatch = stopwatch.get();
   world.m_world->cloths().back()->add(std::move(stopwatch));
@@ -68,6 +74,8 @@ std::vector<std::string> effectNames(const SceneWorld& world) {
       if (std::find(names.begin(), names.end(), key) == names.end()) names.push_back(key);
     }
   }
+  const wetcloth::ClothSolver* const solver = world.clothSolver();
+  if (solver != nullptr && solver->parameters().guard) names.emplace_back(CostWorld::guard);
   return names;
 }
 

@@ -20,9 +20,11 @@ class CostWorld {
 
   /// The scene in Bullet alone.
   static CostWorld plain(const Scene& scene) { return CostWorld(scene, SceneWorld::Kind::plainBullet); }
-  /// Wrapped by the library, which has nothing to do: dry, and without effects.
+  /// Wrapped by the library, which has nothing to do: dry, without effects, and without the solver's guard.
   static CostWorld idle(const Scene& scene);
-  /// With all effects but the one of this name, if it has a name, and a stopwatch.
+  /// The name of the solver's guard beside those of the effects.
+  static constexpr const char* guard = "guard";
+  /// With all effects and the guard but the one of this name, if it has a name, and a stopwatch.
   static CostWorld timed(const Scene& scene, const std::string& without = "");
 
   const SceneWorld& world() const { return *m_world; }
@@ -39,7 +41,8 @@ class CostWorld {
   const Stopwatch* m_stopwatch = nullptr;
 };
 
-/// The names of a world's effects as a scene spells them, "hooke_springs", each once, in the order of the step.
+/// The names of a world's effects as a scene spells them, "hooke_springs", each once, in the order of the step; last,
+/// where the solver has one, its guard.
 std::vector<std::string> effectNames(const SceneWorld& world);
 
 }  // namespace command

@@ -14,6 +14,7 @@ namespace stability {
 /// All but that of pure computation.
 const std::vector<World>& everyWorld();
 
+inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr int kNodes = 8;  ///< of a side of most cases' cloths: small, since there are many of them
 
 /// A square of 1 m x 1 m, upright in the plane z = 0, its bottom at y = 0, free.

@@ -10,6 +10,7 @@
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -21,6 +22,15 @@ using command::WorldKind;
 WorldKind kindOf(World world) {
   if (isDeformable(world)) return WorldKind::deformable;
   return world == World::softMultiBody ? WorldKind::softMultiBody : WorldKind::softRigid;
+}
+
+/// Ours has the guard in its world; what one would write first goes without it there.
+std::optional<wetcloth::ClothSolver::Parameters> solverOf(World world, Way way) {
+  const bool isOurs = way == Way::ours;
+  const bool isWithout = way == Way::naive && world == World::softRigidGuard;
+  const bool isOnClothSolver = world == World::softRigidClothSolver || world == World::softRigidGuard;
+  if (isWithout || (isOurs && isOnClothSolver)) return wetcloth::ClothSolver::Parameters();
+  return std::nullopt;
 }
 
 constexpr double kBendingShare = 0.01;  // of the stiffness of a link that bends
@@ -40,12 +50,12 @@ CaseScene::CaseScene(World world, Way way, double dt, const btVector3& gravity)
   settings.kind = kindOf(world);
   settings.gravity = gravity;
   settings.implicit = world == World::deformableImplicit;
-  if (world == World::softRigidClothSolver && isOurs()) settings.clothSolver.emplace();
+  settings.clothSolver = solverOf(world, way);
   m_bullet = std::make_unique<command::BulletWorld>(settings);
+  if (m_bullet->clothSolver() != nullptr) m_bullet->clothSolver()->setLog({});
   if (!isOurs()) return;
   m_wetWorld = &m_bullet->wet();
   m_wetWorld->setLog({});
-  if (m_bullet->clothSolver() != nullptr) m_bullet->clothSolver()->setLog({});
 }
 
 btSoftBody& CaseScene::add(std::unique_ptr<btSoftBody> body, double stiffness) {
@@ -87,6 +97,22 @@ wetcloth::WetCloth* CaseScene::wet(btSoftBody& body, const wetcloth::Fabric& fab
     cloth.wet->add<wetcloth::HookeSprings>(springs);
   }
   return cloth.wet;
+}
+
+wetcloth::CollisionAudit* CaseScene::audit(btSoftBody& body) {
+  if (isPlainBullet()) return nullptr;
+  m_bullet->wet().setLog({});
+  wetcloth::CollisionAudit::Parameters parameters;
+  // Edges side by side in flat cloth that stretches may pass for crossing by any other.
+  if (wetcloth::collision::ContinuousCheck::hasExact()) parameters.tier = wetcloth::collision::Tier::exact;
+  return &m_bullet->wet().add(body, wetcloth::Fabric::cotton()).add<wetcloth::CollisionAudit>(parameters);
+}
+
+void CaseScene::guardBy(const wetcloth::ClothSolver::Guard& guard) {
+  if (!isOurs() || m_world != World::softRigidGuard) return;
+  wetcloth::ClothSolver::Parameters parameters = m_bullet->clothSolver()->parameters();
+  parameters.guard = guard;
+  m_bullet->clothSolver()->setParameters(parameters);
 }
 
 btRigidBody& CaseScene::addFloor(double height) {

@@ -18,8 +18,11 @@ namespace stability {
 struct Limits {
   /// Fastest thing that pushes: air, pins, rigid bodies, water, or the cloth itself at the start [m/s].
   double source = 0;
-  double drop = 0;       ///< furthest that anything can fall [m]
-  double force = 0;      ///< greatest force on a whole cloth, for the static stretch of springs of `stiffness` [N]
+  double drop = 0;   ///< furthest that anything can fall [m]
+  double force = 0;  ///< greatest force on a whole cloth, for the static stretch of springs of `stiffness` [N]
+  /// How much faster one node may be than all: a free edge doubles the velocity of a wave that reaches it, and what
+  /// layers have held against a pull lets go like a whip [-].
+  double whip = 2;
   double stretch = 0.5;  ///< of a link, beyond what one step at full speed and the static stretch give [-]
   /// From here on nothing forces the cloth any more; at the end it must be at rest. Infinite: forced to the end [s].
   double calmFrom = std::numeric_limits<double>::infinity();
@@ -60,6 +63,12 @@ class CaseScene {
   void collide(btSoftBody& body, bool withCloths = false);
   /// Makes a body of this scene wettable; null unless this is our way.
   wetcloth::WetCloth* wet(btSoftBody& body, const wetcloth::Fabric& fabric = wetcloth::Fabric::cotton());
+  /// Counts what a body that nobody wets, and those added after it, pass through; null in plain Bullet.
+  wetcloth::CollisionAudit* audit(btSoftBody& body);
+  /// Of the cloths in this scene, from the next step on, if this is our way in World::softRigidGuard.
+  void guardBy(const wetcloth::ClothSolver::Guard& guard);
+  /// Null where Bullet's own solver steps the cloths.
+  const wetcloth::ClothSolver* clothSolver() const { return m_bullet->clothSolver(); }
   /// The WetClothWorld; null unless this is our way.
   wetcloth::WetClothWorld* wetWorld() { return m_wetWorld; }
   /// A rigid body; a mass of 0 is a kinematic one, which the case moves by moveKinematic().

@@ -14,6 +14,7 @@ std::vector<HardCase> contactCases();
 std::vector<HardCase> timeCases();
 std::vector<HardCase> springCases();
 std::vector<HardCase> cubicCases();
+std::vector<HardCase> guardCases();
 std::vector<HardCase> laundryCases();
 
 }  // namespace stability

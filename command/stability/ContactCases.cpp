@@ -16,8 +16,6 @@
 namespace stability {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 wetcloth::ClothPatch clothWithPins(std::vector<int> pins) {
   wetcloth::ClothPatch patch = uprightCloth();
   patch.pinnedNodes = std::move(pins);

@@ -37,7 +37,7 @@ bool SceneMeter::observeMotion(const CaseScene::Cloth& cloth) {
     m_kineticEnergy += mass * squared / 2;
     m_mass += mass;
   }
-  m_meter.compare("speed", std::sqrt(fastest), 2 * topSpeed());
+  m_meter.compare("speed", std::sqrt(fastest), m_scene.limits.whip * topSpeed());
   return true;
 }
 

@@ -10,7 +10,8 @@ namespace stability {
 /// - `finite`: every position, velocity and amount of water is a number;
 /// - `energy`: kinetic energy is at most all mass moving as fast as the fastest source and a fall through the whole
 ///   drop, 1/2 M (u + v)^2, v = sqrt(2 g h) and one step's gravity: nothing else puts energy in;
-/// - `speed`: twice that speed for any one node, since a free edge doubles the velocity of a wave that reaches it;
+/// - `speed`: `Limits::whip` times that speed for any one node, twice as a rule, since a free edge doubles the velocity
+///   of a wave that reaches it;
 /// - `stretch`: a link is longer than at rest by at most `Limits::stretch` of itself, its springs' static stretch, and
 ///   what its two ends part in one step at full speed, before the next solve can see it;
 /// - `ledger`: initial + absorbed = held + dripped + evaporated to 1e-12 of what was booked, and no node holds less

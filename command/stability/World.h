@@ -14,6 +14,7 @@ enum class World {
   deformable,            ///< explicit; our HookeSprings hold the cloth, in plain Bullet its own springs do
   deformableImplicit,    ///< the same, implicit with projection
   softRigidClothSolver,  ///< soft-rigid, on ClothSolver; plain Bullet stays on its own solver
+  softRigidGuard,        ///< the same with its guard, which the naive method goes without
   none                   ///< cases of pure computation
 };
 
@@ -32,6 +33,7 @@ inline const std::vector<std::pair<std::string, World>>& stabilityWorlds() {
       {"deformable", World::deformable},
       {"deformable_implicit", World::deformableImplicit},
       {"soft_rigid_cloth_solver", World::softRigidClothSolver},
+      {"soft_rigid_guard", World::softRigidGuard},
       {"none", World::none}};
   return names;
 }

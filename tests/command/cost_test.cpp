@@ -181,6 +181,20 @@ TEST(Cost, AWorldThatFailsWithoutAnEffectEndsTheMeasurement) {
   expectConsistent(result);
 }
 
+TEST(Cost, TheGuardIsOneOfWhatASceneCallsFor) {
+  Json scene = smallScene();
+  scene["solver"] = {{"guard", Json::object()}};
+  const Json result = costOfScene(scene);
+  EXPECT_EQ(namesIn(result), (std::vector<std::string>{"absorption", "wind", "guard"}));
+  EXPECT_EQ(result.at("worlds"), 4 + 3);
+  expectConsistent(result);
+  const Json& guard = result.at("effects").back();
+  EXPECT_EQ(guard.at("noise_percent"), guard.at("whole_step_noise_percent"))
+      << "it is in the solver's part of the step";
+  scene["cloths"][0].erase("effects");
+  EXPECT_EQ(namesIn(costOfScene(scene)), (std::vector<std::string>{"guard"}));
+}
+
 TEST(Cost, OnClothSolverBesidePlainBulletOnItsOwn) {
   const TemporaryDirectory directory;
   const std::string file = directory.write("scene.json", smallScene().dump());

@@ -229,6 +229,32 @@ TEST(CollisionAuditSmallSteps, GuardedNothingPasses) {
   EXPECT_EQ(audited.audit->totals().incompleteSubsteps, 0);
 }
 
+// A cloth that an application carries after another one, which is as fast and 3 cm ahead. It is put 10 cm ahead between
+// two steps, beyond the other one, and goes there in the small steps of the next.
+TEST(CollisionAuditSmallSteps, PinsThatAreMovedBetweenStepsPassOnlyOnTheirWay) {
+  const auto square = [](double height, int nodes, double side, std::vector<wetcloth::ClothPatch::Edge> pinned) {
+    return [=](btSoftBodyWorldInfo& info) {
+      wetcloth::ClothPatch patch = levelPatch(nodes, side);
+      patch.origin.setY(btScalar(height));
+      patch.pinnedEdges = pinned;
+      return patch.build(info);
+    };
+  };
+  using Edge = wetcloth::ClothPatch::Edge;
+  ClothSolver::Parameters parameters = smallSteps(10);
+  parameters.guard.emplace();
+  Audited audited({square(0.03, 2, 0.5, {Edge::bottom, Edge::top}), square(0, 9, 1, {})}, parameters);
+  audited.scene.step(1);  // the audit has seen small steps
+  Audited::push(*audited.bodies[1], -6);
+  for (int step = 0; step < 5; ++step) {
+    for (int i = 0; i < 4; ++i) audited.bodies[0]->m_nodes[i].m_x -= at(0, 0.1, 0);
+    audited.scene.step(1);
+  }
+  audited.audit->look();
+  EXPECT_NEAR(double(audited.bodies[1]->m_nodes[0].m_x.y()), -0.5, 1e-3);
+  EXPECT_EQ(audited.audit->totals().passages(), 0);
+}
+
 // The substep that has begun is part of the state: it is looked at after it was restored.
 TEST(CollisionAuditSmallSteps, ARestoredAuditGoesOnBitForBit) {
   Audited first({patchAt(0), patchAt(0.05)}, smallSteps(10));

@@ -172,6 +172,20 @@ TEST(Studies, CollisionChecksMissNothingAndBulletsDoes) {
   EXPECT_GT(errorOf(missed, "bullet, no tolerance"), 0.3);
 }
 
+TEST(Studies, TheGuardLetsNothingPass) {
+  const std::vector<Study> studies = quick(accuracy::studyGuard);
+  for (const Study& study : studies) {
+    expectWhole(study);
+    const bool isOfPassages = study.measure.name == "guard_heap" || study.measure.name == "guard_wring";
+    for (const Point& point : study.points) {
+      EXPECT_EQ(point.isCompared, point.method != "no guard");
+      if (isOfPassages) {
+        EXPECT_EQ(point.error, point.isCompared ? 0 : 1) << point.name();
+      }
+    }
+  }
+}
+
 TEST(Studies, AnErrorThatIsNoNumberIsNullInJson) {
   Study study;
   study.points.resize(2);
