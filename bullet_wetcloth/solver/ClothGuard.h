@@ -34,6 +34,7 @@ class ClothGuard {
     btVector3 origin;      ///< of its places, whole numbers [m]
     btScalar h;            ///< of its small steps [s]
     bool isStill = false;  ///< it is not stepped: nothing moves it
+    bool isNew = false;    ///< its mesh is a new one
   };
 
   /// Before the first small step of a step: nodes stand where they were at its end, and pins where they come from.

@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/solver/ClothGuard.h"
+#include "bullet_wetcloth/solver/Crossings.h"
 #include "bullet_wetcloth/solver/GuardBodies.h"
 #include "bullet_wetcloth/solver/PackedCloth.h"
 #include "bullet_wetcloth/solver/SmallStepCount.h"
@@ -96,6 +97,7 @@ class ClothSolver::Impl {
 
   void solveGuarded(const btAlignedObjectArray<btSoftBody*>& softBodies, btScalar dt);
   void beginGuard(int smallSteps);
+  void tellCrossings();
   void warnOfBadNode(Taken& taken) const;
   void warnOfSmallSteps(Taken& taken) const;
 
@@ -109,6 +111,7 @@ class ClothSolver::Impl {
   GuardBodies bodies;
   std::vector<GuardBodies::Cloth> amongBodies;  // those that are guarded
   long long mostInside = 0;
+  long long mostCrossing = 0;
   SmallStepViewers viewers;
   std::function<void(const std::string&)> logger = [](const std::string& message) { std::clog << message << '\n'; };
 };
@@ -185,12 +188,13 @@ PackedNodes* ClothSolver::packedNodes(const btSoftBody& body) {
 ClothSolver::GuardTotals ClothSolver::guardTotals() const {
   GuardTotals totals = m_impl->guard.totals();
   totals.inside = m_impl->mostInside;
+  totals.crossing = m_impl->mostCrossing;
   return totals;
 }
 
 void ClothSolver::resetGuardTotals() {
   m_impl->guard.resetTotals();
-  m_impl->mostInside = 0;
+  m_impl->mostInside = m_impl->mostCrossing = 0;
 }
 
 void ClothSolver::setSmallStepCallback(SmallStepCallback callback) { m_impl->viewers.setCallback(std::move(callback)); }
@@ -268,24 +272,39 @@ void ClothSolver::Impl::beginGuard(int smallSteps) {
   guard.begin(guardedNodes, *parameters.guard, smallSteps, hasBodies ? &bodies.exemptions() : nullptr);
 }
 
+// Where a cloth is new, or was cut: an author may have made it so.
+void ClothSolver::Impl::tellCrossings() {
+  std::vector<ClothGuard::Cloth> all = standing;
+  for (const GuardBodies::Cloth& cloth : amongBodies) all.push_back(cloth.guarded);
+  const long long crossings = crossingsOf(all);
+  mostCrossing = std::max(mostCrossing, crossings);
+  if (crossings == 0) return;
+  log("wetcloth: " + std::to_string(crossings) +
+      " pairs of an edge and a face of cloths cross where a cloth is new to the guard; they are left as they are");
+}
+
 // All cloths take each small step together, so that they can be kept apart after it.
 void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& softBodies, btScalar dt) {
   guarded.clear();
   amongBodies.clear();
   standing.clear();
+  bool isAnyNew = false;
   int count = 0;
   for (int k = 0; k < softBodies.size(); ++k) {
     Taken* const taken = find(*softBodies[k]);
     if (!taken) continue;
     if (!softBodies[k]->isActive() || !taken->cloth.beginSmallSteps(parameters)) {
       if (const std::optional<ClothGuard::Cloth> still = taken->cloth.standing()) standing.push_back(*still);
+      isAnyNew = isAnyNew || (!standing.empty() && standing.back().isNew);
       continue;
     }
     guarded.push_back(&taken->cloth);
     amongBodies.push_back({softBodies[k], taken->cloth.guarded()});
+    isAnyNew = isAnyNew || amongBodies.back().guarded.isNew;
     count = std::max(count, taken->cloth.smallSteps());
   }
   if (guarded.empty()) return;
+  if (isAnyNew) tellCrossings();
   const bool hasBodies = parameters.guard->bodies;
   if (hasBodies) {
     int others = 0;

@@ -56,7 +56,9 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
     long long halts = 0;       ///< small steps in which all cloths stood still
     long long forced = 0;      ///< pairs that pins or bodies drove through each other, or might have
     long long meeting = 0;     ///< the most pairs that met at one look already, and so may pass
-    long long inside = 0;      ///< the most faces that stood in rigid bodies at once, and so may pass their surfaces
+    long long crossing =
+        0;                 ///< the most pairs of an edge and a face that crossed when a cloth was new; left as they are
+    long long inside = 0;  ///< the most faces that stood in rigid bodies at once, and so may pass their surfaces
   };
 
   /// What can be set, with units and ranges.

@@ -132,7 +132,8 @@ nlohmann::ordered_json RunReport::json() const {
     json["guard"] = {{"passages", m_guard.forced},
                      {"stopped", m_guard.stopped},
                      {"halts", m_guard.halts},
-                     {"meeting", m_guard.meeting}};
+                     {"meeting", m_guard.meeting},
+                     {"crossing", m_guard.crossing}};
     if (m_scene.clothSolver->guard->bodies) json["guard"]["inside"] = m_guard.inside;
   }
   json["centre_of_mass"] = {m_moment[0] / m_mass, m_moment[1] / m_mass, m_moment[2] / m_mass};

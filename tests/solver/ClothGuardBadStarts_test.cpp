@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace wetcloth_test::cloth_guard_bad_starts_test {
 namespace {
@@ -42,6 +43,35 @@ TEST(ClothGuardBadStarts, ClothsThatCrossAreTold) {
   addCrossedCloths(scene, level, upright);
   scene.step(1);
   EXPECT_GT(scene.totals().meeting, 0);
+}
+
+// An upright sheet of 10 columns cuts a level one of 9 along a line: its 9 spaces between columns have an edge along
+// each column and a diagonal, and where these cross the level sheet is in one of its faces; and the level sheet's edges
+// cross it.
+TEST(ClothGuardBadStarts, CrossingEdgesAndFacesAreCountedWhenAClothIsNew) {
+  GuardScene scene;
+  btSoftBody* level = nullptr;
+  btSoftBody* upright = nullptr;
+  addCrossedCloths(scene, level, upright);
+  std::string told;
+  scene.solver().setLog([&told](const std::string& message) { told = message; });
+  scene.step(1);
+  const long long crossing = scene.totals().crossing;
+  // Upright: 10 edges along columns and 9 diagonals. Level: along 0.5 m its 9 columns of edges and 8 diagonals.
+  EXPECT_GE(crossing, 10 + 9 + 8 - 4);
+  EXPECT_LE(crossing, 10 + 9 + 9 + 8 + 4);
+  EXPECT_NE(told.find(std::to_string(crossing)), std::string::npos) << told;
+  scene.solver().resetGuardTotals();
+  scene.step(5);
+  EXPECT_EQ(scene.totals().crossing, 0) << "none is new";
+}
+
+TEST(ClothGuardBadStarts, NothingCrossesInClothsThatLieOnEachOther) {
+  GuardScene scene;
+  scene.add(levelSheet(9, 0.5, btVector3(0, 0, 0)));
+  scene.add(levelSheet(9, 0.5, btVector3(btScalar(0.01), btScalar(0.0001), btScalar(0.02))));
+  scene.step(1);
+  EXPECT_EQ(scene.totals().crossing, 0);
 }
 
 // Edges of both cross each other, in numbers that float32 has.
