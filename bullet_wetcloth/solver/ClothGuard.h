@@ -46,10 +46,22 @@ class ClothGuard {
   /// What the nodes of bodies have pushed since then: see GuardNodes.
   const std::vector<GuardNodes::Place>& recoil() const { return m_nodes.recoil; }
 
+  /// After hold(): the planes between vertices and faces, and the nodes that they name, at `to`.
+  const GuardPlanes& vertexFace() const { return m_pairs.vertexFace(); }
+  const GuardNodes& nodes() const { return m_nodes; }
+  /// Of each cloth the first of its nodes among all.
+  const std::vector<std::size_t>& firstNodes() const { return m_first; }
+  /// Places that are nearer touch [m]: layers that lie on each other are the thickness apart, and a little more or
+  /// less.
+  btScalar touching() const { return m_contact.thickness * kTouching; }
+  btScalar friction() const { return m_contact.friction; }
+
   const ClothSolver::GuardTotals& totals() const { return m_totals; }
   void resetTotals() { m_totals = {}; }
 
  private:
+  static constexpr btScalar kTouching = btScalar(17.0 / 16);  // of the thickness
+
   void keep();
   bool isWhereExpected() const;
   bool isWhereExpected(std::size_t cloth, int node) const;

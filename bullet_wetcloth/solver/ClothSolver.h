@@ -115,7 +115,8 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   /// Between steps. Throws as the constructor does; then nothing has changed.
   void setParameters(const Parameters& parameters);
 
-  /// Why this body is stepped by Bullet's own solver, or not at all; empty: it is taken, from the next step on.
+  /// Why this body is stepped by Bullet's own solver, or not at all; empty: it is taken, from the next step on. What it
+  /// says of other bodies is what they were in the last step.
   std::string reasonNotTaken(const btSoftBody& body) const;
   /// How many Parameters::smallSteps a body needs so that its links stretch as their stiffness says: h^2 is then at
   /// most the inverse of stiffness and half the sum of both ends' inverse masses, for every link. As the body was in
@@ -162,7 +163,7 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   void predictMotion(btScalar dt) override;
   /// Finds the contacts with a rigid body or a link of a multibody.
   void processCollision(btSoftBody* body, const btCollisionObjectWrapper* object) override;
-  /// Of two soft bodies: left to Bullet.
+  /// Of two soft bodies: the guard's, if it has them; else Bullet's.
   void processCollision(btSoftBody* body, btSoftBody* other) override;
   /// The small steps.
   void solveConstraints(btScalar dt) override;

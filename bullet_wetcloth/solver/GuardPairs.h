@@ -41,6 +41,7 @@ class GuardPairs {
     }
   }
   bool isEmpty() const { return size() == 0; }
+  const GuardPlanes& vertexFace() const { return m_vertexFace; }
   std::size_t size() const { return m_vertexFace.size() + m_edgeEdge.size(); }
 
   /// Parts that are within the thickness move away from each other, without a change of velocity. Once a small step.

@@ -72,6 +72,7 @@ void PackedCloth::takeMesh() {
   m_tiles = slots.tiles;
   m_grid = slots.grid;
   m_guardMesh.reset();
+  m_facesByNodes.reset();
   m_nodes.reset(slots);
   m_links.reset(m_body, slots);
   m_normals.reset(m_body, slots);
@@ -298,6 +299,11 @@ std::optional<ClothGuard::Cloth> PackedCloth::standing() {
   ClothGuard::Cloth cloth = guarded();
   cloth.isStill = true;
   return cloth;
+}
+
+const FacesByNodes& PackedCloth::facesByNodes() {
+  if (!m_facesByNodes) m_facesByNodes = std::make_unique<FacesByNodes>(m_body);
+  return *m_facesByNodes;
 }
 
 void PackedCloth::finish() {
