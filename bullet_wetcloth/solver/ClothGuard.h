@@ -34,6 +34,7 @@ class ClothGuard {
     btVector3 origin;      ///< of its places, whole numbers [m]
     btScalar h;            ///< of its small steps [s]
     bool isStill = false;  ///< it is not stepped: nothing moves it
+    const LayerWetness* wetness = nullptr;
   };
 
   /// Before the first small step of a step: nodes stand where they were at its end, and pins where they come from.
@@ -53,15 +54,15 @@ class ClothGuard {
   const std::vector<std::size_t>& firstNodes() const { return m_first; }
   /// Places that are nearer touch [m]: layers that lie on each other are the thickness apart, and a little more or
   /// less.
-  btScalar touching() const { return m_contact.thickness * kTouching; }
-  btScalar friction() const { return m_contact.friction; }
+  btScalar touching() const { return m_contact.touching; }
+  btScalar frictionOf(std::size_t vertexFacePlane) const {
+    return m_pairs.frictionOf(m_pairs.vertexFace(), vertexFacePlane, m_nodes);
+  }
 
   const ClothSolver::GuardTotals& totals() const { return m_totals; }
   void resetTotals() { m_totals = {}; }
 
  private:
-  static constexpr btScalar kTouching = btScalar(17.0 / 16);  // of the thickness
-
   void keep();
   bool isWhereExpected() const;
   bool isWhereExpected(std::size_t cloth, int node) const;
@@ -74,6 +75,7 @@ class ClothGuard {
   WaySlack slackFor(int steps) const;
   void addPlanes();
   void enforce();
+  void takeWetness();
   void forgetAside();
   void keepAside();
   void gather();

@@ -206,6 +206,18 @@ void ClothSolver::setLinkStiffness(const btSoftBody& body, const std::vector<btS
   if (Impl::Taken* const taken = m_impl->find(body)) taken->cloth.setLinkStiffness(factors, revision);
 }
 
+void ClothSolver::setLayerFriction(const btSoftBody& body, const std::vector<btScalar>& factors) {
+  if (Impl::Taken* const taken = m_impl->find(body)) taken->cloth.wetness().friction = factors;
+}
+
+void ClothSolver::setLayerCling(const btSoftBody& body, const std::vector<btScalar>& pull,
+                                const std::vector<btScalar>& shear) {
+  Impl::Taken* const taken = m_impl->find(body);
+  if (!taken) return;
+  taken->cloth.wetness().pull = pull;
+  taken->cloth.wetness().shear = shear;
+}
+
 PackedNodes* ClothSolver::packedNodes(const btSoftBody& body) {
   Impl::Taken* const taken = m_impl->find(body);
   return taken && !taken->cloth.hasNewMesh() ? &taken->cloth.nodes() : nullptr;

@@ -133,6 +133,13 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   /// last call nothing is done. WetCloth calls it in each step for what WetStiffness has set.
   void setLinkStiffness(const btSoftBody& body, const std::vector<btScalar>& factors, unsigned long long revision);
 
+  /// What the guard does between layers of a body that is taken, by node: it multiplies Guard::friction by these, >= 0;
+  /// of two layers the larger factor counts. Empty: by 1. WetCloth calls it in each step for WetFriction.
+  void setLayerFriction(const btSoftBody& body, const std::vector<btScalar>& factors);
+  /// What keeps each node on a layer that it touches, away from it and along it [N], >= 0; empty: nothing. WetCloth
+  /// calls it in each step for Cling.
+  void setLayerCling(const btSoftBody& body, const std::vector<btScalar>& pull, const std::vector<btScalar>& shear);
+
   /// Sees the nodes' places after each small step; an empty one sees nothing.
   void setSmallStepCallback(SmallStepCallback callback);
   /// Between steps. It is called for as long as it lives; adding it again does nothing.

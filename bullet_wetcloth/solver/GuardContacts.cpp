@@ -65,7 +65,8 @@ btVector3 faceWeightsOf(const btSoftBody& body, const btSoftBody::Face& face, co
   return weights;
 }
 
-void listContact(const TouchingPair& pair, int number, const Separation& separation, const ClothGuard& guard) {
+void listContact(const TouchingPair& pair, int number, const Separation& separation, btScalar margin,
+                 btScalar friction) {
   btSoftBody& vertexOf = pair.vertexOf->body();
   btSoftBody& faceOf = pair.faceOf->body();
   btSoftBody::SContact contact;
@@ -77,8 +78,8 @@ void listContact(const TouchingPair& pair, int number, const Separation& separat
   if (!(ofVertex + ofFace > 0)) return;
   for (int axis = 0; axis < 3; ++axis) contact.m_normal[axis] = static_cast<btScalar>(separation.normal[axis]);
   contact.m_normal[3] = 0;
-  contact.m_margin = guard.touching();
-  contact.m_friction = guard.friction();
+  contact.m_margin = margin;
+  contact.m_friction = friction;
   contact.m_cfm[0] = ofVertex / (ofVertex + ofFace) * vertexOf.m_cfg.kSHR;
   contact.m_cfm[1] = ofFace / (ofVertex + ofFace) * faceOf.m_cfg.kSHR;
   vertexOf.m_scontacts.push_back(contact);
@@ -98,7 +99,7 @@ void listContacts(const ClothGuard& guard, const std::vector<PackedCloth*>& clot
       const Separation separation = separationOfVertexAndFace(pair.places);
       if (!(separation.distance <= static_cast<double>(guard.touching()))) continue;
       const int face = pair.faceOf->facesByNodes().find(pair.nodes[1], pair.nodes[2], pair.nodes[3]);
-      if (face >= 0) listContact(pair, face, separation, guard);
+      if (face >= 0) listContact(pair, face, separation, guard.touching(), guard.frictionOf(plane));
     }
   }
 }

@@ -290,7 +290,8 @@ LinkedNodes PackedCloth::linked() {
 
 ClothGuard::Cloth PackedCloth::guarded() {
   if (!m_guardMesh) m_guardMesh = std::make_unique<GuardMesh>(guardMeshOf(m_body, m_grid));
-  return {m_guardMesh.get(), m_nodes.moving(), m_nodes.slots(), m_nodes.nodeCount(), m_nodes.origin(), m_step.h};
+  return {m_guardMesh.get(), m_nodes.moving(), m_nodes.slots(), m_nodes.nodeCount(),
+          m_nodes.origin(),  m_step.h,         false,           &m_wetness};
 }
 
 std::optional<ClothGuard::Cloth> PackedCloth::standing() {

@@ -56,6 +56,8 @@ class PackedCloth {
   void followMesh();
   /// Before the step: the mesh, and the links as they are now.
   void follow(const ClothSolver::Parameters& parameters, btScalar dt);
+  /// Set anew before each step.
+  LayerWetness& wetness() { return m_wetness; }
   /// Scales the stiffness of each link; empty: of none. The revision tells whether these are others than before.
   void setLinkStiffness(const std::vector<btScalar>& factors, unsigned long long revision);
   /// Takes over the nodes, and predicts where they will be. False: the cloth rests in this step.
@@ -107,6 +109,7 @@ class PackedCloth {
   std::unique_ptr<GuardMesh> m_guardMesh;        // while it is guarded
   std::unique_ptr<FacesByNodes> m_facesByNodes;  // once its contacts are listed
   PinnedWays m_pins;
+  LayerWetness m_wetness;
   bool m_isGuarded = false;
   std::vector<btScalar> m_weights;  // of each link: the sum of its ends' inverse masses when the mesh was taken
   std::vector<btScalar> m_stiffnessFactors;  // of each link, or none
