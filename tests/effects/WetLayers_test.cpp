@@ -117,6 +117,38 @@ TEST_P(WetLayers, PassNoWaterWhereTheyAreApart) {
   EXPECT_EQ(layers.fixedCloth.meanSaturation(), 0);
 }
 
+// Its right half is folded under its left half, and wet.
+TEST_P(WetLayers, OfOneClothPassWaterToo) {
+  constexpr int kNodes = 11;
+  GuardScene scene(guardOf(0.3), GetParam());
+  btSoftBody& body = scene.add([&](btSoftBodyWorldInfo& info) {
+    std::unique_ptr<btSoftBody> folded = sheet(kNodes, 0.3, 0, false)(info);
+    for (int k = 0; k < folded->m_nodes.size(); ++k) {
+      btVector3& x = folded->m_nodes[k].m_x;
+      if (x.x() > btScalar(0.001)) {
+        x += btVector3(-2 * x.x(), btScalar(-1.05 * kThickness), 0);
+        folded->setMass(k, 0);
+      }
+      folded->m_nodes[k].m_q = x;
+    }
+    return folded;
+  });
+  wetcloth::WetClothWorld world(scene.scene().bullet().world());
+  wetcloth::WetCloth& cloth = world.add(body);
+  cloth.add<wetcloth::ContactWetting>(betweenCloths());
+  std::vector<double> held(std::size_t(body.m_nodes.size()));
+  for (int k = 0; k < body.m_nodes.size(); ++k) held[std::size_t(k)] = k % kNodes > 5 ? cloth.capacity(k) : 0;
+  cloth.setHeld(held);
+  const double before = cloth.ledger().held;
+  scene.step(60);
+  EXPECT_NEAR(cloth.ledger().held, before, 1e-9 * before);
+  for (int k = 0; k < body.m_nodes.size(); ++k) {
+    if (k % kNodes < 5) {
+      EXPECT_GT(cloth.saturation(k), 0.002) << k;
+    }
+  }
+}
+
 // --- friction -------------------------------------------------------------------------------------------------------
 
 // How far a sheet slides in this time on a slope of this tangent.
