@@ -143,7 +143,7 @@ TEST_P(WetLayers, OfOneClothPassWaterToo) {
   scene.step(60);
   EXPECT_NEAR(cloth.ledger().held, before, 1e-9 * before);
   for (int k = 0; k < body.m_nodes.size(); ++k) {
-    if (k % kNodes < 5) {
+    if (k % kNodes < 4) {  // the fold itself is round
       EXPECT_GT(cloth.saturation(k), 0.002) << k;
     }
   }
@@ -169,20 +169,20 @@ double slideExpected(double slope, double friction, double time) {
   return kGravity / std::hypot(1.0, slope) * (slope - friction) * time * time / 2;
 }
 
-// Meshes that slide over each other are held by their unevenness, too, the more the faster they are.
+// Fast meshes are held by their edges, too, that slide over each other.
 TEST_P(WetLayers, StayOrSlideByTheTangentOfTheSlope) {
   const double mu = 0.3;
   EXPECT_LT(slideOn(GetParam(), 0.9 * mu, mu, 0, 0.4), 0.001);
-  const double slides = slideExpected(0.5, mu, 0.2);
-  EXPECT_NEAR(slideOn(GetParam(), 0.5, mu, 0, 0.2), slides, 0.15 * slides);
+  const double slides = slideExpected(0.5, mu, 0.1);
+  EXPECT_NEAR(slideOn(GetParam(), 0.5, mu, 0, 0.1), slides, 0.1 * slides);
 }
 
 TEST_P(WetLayers, HaveTheFrictionOfTheirWetness) {
   const double mu = 0.3;
   const double wet = mu * wetcloth::WetFriction::Parameters().wetFactor;
   EXPECT_LT(slideOn(GetParam(), 0.9 * wet, mu, kSaturation, 0.4), 0.001);
-  const double slides = slideExpected(1.3 * wet, wet, 0.2);
-  EXPECT_NEAR(slideOn(GetParam(), 1.3 * wet, mu, kSaturation, 0.2), slides, 0.15 * slides);
+  const double slides = slideExpected(1.3 * wet, wet, 0.1);
+  EXPECT_NEAR(slideOn(GetParam(), 1.3 * wet, mu, kSaturation, 0.1), slides, 0.1 * slides);
 }
 
 TEST_P(WetLayers, AreAsDryAgainWithoutTheEffect) {
