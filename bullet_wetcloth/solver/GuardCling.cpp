@@ -2,6 +2,8 @@
 #include "bullet_wetcloth/solver/GuardCling.h"
 
 #include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/numerics/Lanes.h"
+#include "bullet_wetcloth/numerics/Quad.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,28 +17,30 @@ namespace {
 // Of what layers are farther apart than they lie, taken back in a small step.
 constexpr btScalar kComesBack = btScalar(0.05);
 
-btVector3 vectorOf(const GuardNodes::Place& place) { return btVector3(place.at[0], place.at[1], place.at[2]); }
+WETCLOTH_INLINE Quad clingPlaceOf(const std::vector<GuardNodes::Place>& places, std::size_t node) {
+  return load<Quad>(places[node].at);
+}
 
-void shift(GuardNodes::Place& place, const btVector3& by) {
-  for (int axis = 0; axis < 3; ++axis) place.at[axis] += by[axis];
+WETCLOTH_INLINE btScalar alongWay(const Quad& a, const Quad& b) {
+  const Quad products = a * b;
+  return products[0] + products[1] + products[2];
 }
 
 // Of the two places of a pair: how they stand to each other, how they have moved against each other in the small step,
 // both without what moved them aside, and how much they yield to a push [1/kg].
 struct PairMotion {
-  btVector3 between = btVector3(0, 0, 0);
-  btVector3 way = btVector3(0, 0, 0);
+  Quad between = everywhere<Quad>(0);
+  Quad way = everywhere<Quad>(0);
   btScalar yield = 0;
 
-  PairMotion(const GuardPlanes& planes, std::size_t plane, const GuardNodes& nodes) {
-    const btVector3 origin = vectorOf(nodes.to[toSize(planes.node(plane, 0))]);
+  WETCLOTH_INLINE PairMotion(const GuardPlanes& planes, std::size_t plane, const GuardNodes& nodes) {
+    const Quad origin = clingPlaceOf(nodes.to, toSize(planes.node(plane, 0)));
     for (int k = 0; k < 4; ++k) {
       const std::size_t node = toSize(planes.node(plane, k));
       const btScalar weight = planes.weight(plane, k);
-      const btVector3 to = vectorOf(nodes.to[node]);
-      const btVector3 aside = vectorOf(nodes.aside[node]);
-      between += weight * (to - origin - aside);
-      way += weight * (to - vectorOf(nodes.from[node]) - aside);
+      const Quad to = clingPlaceOf(nodes.to, node) - clingPlaceOf(nodes.aside, node);
+      between = between + everywhere<Quad>(weight) * (to - origin);
+      way = way + everywhere<Quad>(weight) * (to - clingPlaceOf(nodes.from, node));
       yield += weight * weight * nodes.inverseMass[node];
     }
   }
@@ -97,18 +101,19 @@ btScalar GuardCling::hold(const GuardPlanes& planes, std::size_t plane, const Ra
   if (!(motion.yield > 0)) return 0;
   const btScalar before = planes.apart(plane);
   const btScalar wanted = before - kComesBack * std::max(before - range.thickness, btScalar(0));
-  const btScalar parted = std::max(motion.between.dot(normal) - wanted, btScalar(0));
-  const btVector3 along = motion.way - normal * motion.way.dot(normal);
-  const btScalar slid = along.length();
+  const Quad away = Quad{normal.x(), normal.y(), normal.z(), 0};
+  const btScalar parted = std::max(alongWay(motion.between, away) - wanted, btScalar(0));
+  const Quad slide = motion.way - away * everywhere<Quad>(alongWay(motion.way, away));
+  const btScalar slid = std::sqrt(alongWay(slide, slide));
   const btScalar pulled = spend(parted, motion.yield, left.pull);
   const btScalar held = spend(slid, motion.yield, left.shear);
-  btVector3 back = normal * -pulled;
-  if (slid > 0) back -= along * (held / slid);
+  const Quad back = away * everywhere<Quad>(pulled) + slide * everywhere<Quad>(slid > 0 ? held / slid : 0);
   for (int k = 0; k < 4; ++k) {
     const std::size_t node = toSize(planes.node(plane, k));
-    shift(nodes.to[node], back * (planes.weight(plane, k) * nodes.inverseMass[node] / motion.yield));
+    const btScalar share = planes.weight(plane, k) * nodes.inverseMass[node] / motion.yield;
+    store(nodes.to[node].at, load<Quad>(nodes.to[node].at) - back * everywhere<Quad>(share));
   }
-  return std::max(pulled, held);
+  return pulled;
 }
 
 }  // namespace WETCLOTH_PRECISION

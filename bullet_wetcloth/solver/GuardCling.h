@@ -31,7 +31,7 @@ class GuardCling {
   bool isEmpty() const { return m_limits.empty(); }
   /// Before each small step.
   void renew();
-  /// Moves the nodes' places at the end of a small step. Returns the farthest that a pair was moved [m].
+  /// Moves the nodes' places at the end of a small step. Returns how far two parts were brought back at most [m].
   btScalar hold(const GuardPlanes& vertexFace, const Range& range, GuardNodes& nodes);
 
  private:

@@ -148,9 +148,11 @@ GuardPairs::Outcome GuardPairs::enforce(GuardNodes& nodes) {
   Outcome outcome;
   m_isMeasured = false;
   bool isClear = false;
+  bool isPulled = false;  // a stack that hangs takes all passes
   for (int k = 0; k < kPasses && !isClear; ++k) {
-    isClear = m_cling.hold(m_vertexFace, {reach(), m_contact.touching}, nodes) <= kStill * reach();
-    isClear = pass(m_vertexFace, nodes) && isClear;
+    const btScalar pulled = m_cling.hold(m_vertexFace, {reach(), m_contact.touching}, nodes);
+    isPulled = isPulled || (k == 0 && pulled > kStill * reach());
+    isClear = pass(m_vertexFace, nodes) && !isPulled;
     isClear = pass(m_edgeEdge, nodes) && isClear;
   }
   m_groups.clear(nodes.to.size());
