@@ -116,6 +116,7 @@ class ClothSolver::Impl {
   std::vector<PackedCloth*> guarded;            // in this step
   std::vector<ClothGuard::Cloth> guardedNodes;  // theirs, and those of rigid bodies
   std::vector<ClothGuard::Cloth> standing;      // those that are not stepped
+  std::vector<PackedCloth*> inContact;          // all of these, those that are stepped first
   GuardBodies bodies;
   std::vector<GuardBodies::Cloth> amongBodies;  // those that are guarded
   long long mostInside = 0;
@@ -318,12 +319,16 @@ void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& so
   guarded.clear();
   amongBodies.clear();
   standing.clear();
+  inContact.clear();
   int count = 0;
   for (int k = 0; k < softBodies.size(); ++k) {
     Taken* const taken = find(*softBodies[k]);
     if (!taken) continue;
     if (!softBodies[k]->isActive() || !taken->cloth.beginSmallSteps(parameters)) {
-      if (const std::optional<ClothGuard::Cloth> still = taken->cloth.standing()) standing.push_back(*still);
+      if (const std::optional<ClothGuard::Cloth> still = taken->cloth.standing()) {
+        standing.push_back(*still);
+        inContact.push_back(&taken->cloth);
+      }
       continue;
     }
     guarded.push_back(&taken->cloth);
@@ -356,7 +361,8 @@ void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& so
       if (k < cloth->smallSteps()) cloth->show(viewers, k);
     }
   }
-  listContacts(guard, guarded);
+  inContact.insert(inContact.begin(), guarded.begin(), guarded.end());
+  listContacts(guard, inContact, guarded.size());
   for (PackedCloth* const cloth : guarded) cloth->endSmallSteps();
   if (hasBodies) bodies.end();
 }

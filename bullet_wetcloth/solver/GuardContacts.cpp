@@ -23,15 +23,16 @@ struct TouchingPair {
   double places[4][3];
 };
 
-// False: one is a rigid body's.
-bool readPair(const ClothGuard& guard, const std::vector<PackedCloth*>& cloths, std::size_t plane, TouchingPair& pair) {
+// False: one is a rigid body's, or the vertex one of a cloth that is not stepped.
+bool readPair(const ClothGuard& guard, const std::vector<PackedCloth*>& cloths, std::size_t stepped, std::size_t plane,
+              TouchingPair& pair) {
   const std::vector<std::size_t>& first = guard.firstNodes();
   std::size_t owners[4];
   for (int k = 0; k < 4; ++k) {
     const std::size_t node = toSize(guard.vertexFace().node(plane, k));
     const auto next = std::upper_bound(first.begin(), first.end(), node);
     owners[k] = static_cast<std::size_t>(next - first.begin()) - 1;
-    if (owners[k] >= cloths.size()) return false;
+    if (owners[k] >= (k == 0 ? stepped : cloths.size())) return false;
     pair.nodes[k] = static_cast<int>(node - first[owners[k]]);
     for (int axis = 0; axis < 3; ++axis) {
       pair.places[k][axis] = static_cast<double>(guard.nodes().to[node].at[axis]);
@@ -88,14 +89,14 @@ void listContact(const TouchingPair& pair, int number, const Separation& separat
 }  // namespace
 
 // A plane is up to some small steps old; a gap along its normal is at most what the parts are apart.
-void listContacts(const ClothGuard& guard, const std::vector<PackedCloth*>& cloths) {
+void listContacts(const ClothGuard& guard, const std::vector<PackedCloth*>& cloths, std::size_t stepped) {
   constexpr btScalar kAnyWay = -std::numeric_limits<btScalar>::infinity();
   const GuardPlanes& planes = guard.vertexFace();
   TouchingPair pair;
   for (std::size_t block = 0; block < planes.blocks(); ++block) {
     unsigned near = GuardPlanes::below(planes.kept(block), guard.touching(), kAnyWay);
     for (std::size_t plane = block * GuardPlanes::kAtOnce; near != 0; ++plane, near >>= 1) {
-      if ((near & 1) == 0 || !readPair(guard, cloths, plane, pair)) continue;
+      if ((near & 1) == 0 || !readPair(guard, cloths, stepped, plane, pair)) continue;
       const Separation separation = separationOfVertexAndFace(pair.places);
       if (!(separation.distance <= static_cast<double>(guard.touching()))) continue;
       const int face = pair.faceOf->facesByNodes().find(pair.nodes[1], pair.nodes[2], pair.nodes[3]);

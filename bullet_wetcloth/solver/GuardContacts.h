@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Precision.h"
 #include "bullet_wetcloth/solver/ClothGuard.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace wetcloth {
@@ -15,7 +16,8 @@ class PackedCloth;
 /// form in which Bullet lists its own. Both bodies have VF_SS; they may be one. As in Bullet's list there is none
 /// between nodes that are all pinned. Places that are nearer than ClothGuard::touching() touch.
 /// @param cloths  those that were guarded, in the guard's order
-void listContacts(const ClothGuard& guard, const std::vector<PackedCloth*>& cloths);
+/// @param stepped  so many of them, the first ones, get new lists; a cloth that sleeps keeps its own
+void listContacts(const ClothGuard& guard, const std::vector<PackedCloth*>& cloths, std::size_t stepped);
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

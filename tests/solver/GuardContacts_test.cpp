@@ -243,6 +243,17 @@ TEST_P(GuardContacts, AreOfBodiesThatAskForThem) {
   EXPECT_EQ(expectListed(first, first), first.m_scontacts.size());
 }
 
+TEST_P(GuardContacts, OfALayerThatLiesOnOneThatSleeps) {
+  GuardScene scene(thickGuard(), GetParam());
+  btSoftBody& lower = addSoft(scene, builderOf(levelSheet(9, 0.3, btVector3(0, 0, 0))));
+  const btSoftBody& upper =
+      addSoft(scene, builderOf(levelSheet(9, 0.3, btVector3(btScalar(0.01), btScalar(kThickness), 0))));
+  lower.setActivationState(DISABLE_SIMULATION);
+  scene.step(5);
+  EXPECT_GT(expectListed(upper, lower), 50);
+  EXPECT_EQ(lower.m_scontacts.size(), 0);
+}
+
 // A layer that lies on another touches it in every step, not now and then.
 TEST_P(GuardContacts, OfALayerThatLiesOnAnotherDoNotFlicker) {
   GuardScene scene(thickGuard(), GetParam());
