@@ -121,6 +121,19 @@ void WetCloth::tellSolver() {
   if (solver) solver->setLinkStiffness(m_body, m_linkConstants.stiffness(), m_linkConstants.stiffnessRevision());
 }
 
+bool WetCloth::isGuarded() {
+  ClothSolver* const solver = ClothSolver::of(m_body);
+  return solver && solver->parameters().guard && solver->packedNodes(m_body);
+}
+
+void WetCloth::setLayerFriction(const std::vector<btScalar>& factors) {
+  if (ClothSolver* const solver = ClothSolver::of(m_body)) solver->setLayerFriction(m_body, factors);
+}
+
+void WetCloth::setLayerCling(const std::vector<btScalar>& pull, const std::vector<btScalar>& shear) {
+  if (ClothSolver* const solver = ClothSolver::of(m_body)) solver->setLayerCling(m_body, pull, shear);
+}
+
 // Masses and momentum, and then the links' constants, which follow from the masses.
 void WetCloth::commit() {
   releaseNodes();

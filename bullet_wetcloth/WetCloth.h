@@ -188,6 +188,14 @@ class WETCLOTH_EXPORT WetCloth {
     if (m_deformable) node.m_vn += deltaVelocity;
   }
 
+  /// Whether the guard of a ClothSolver keeps it from layers that it touches, of others or its own. Wetness then counts
+  /// there by what an effect says in each step, in the stage forces or contact:
+  bool isGuarded();
+  /// Of each node: a factor of the guard's friction, >= 0; of two layers the larger one counts. Empty: 1.
+  void setLayerFriction(const std::vector<btScalar>& factors);
+  /// Of each node: what keeps it on the layer on each of its two sides, away from it and along it [N], >= 0. Empty: 0.
+  void setLayerCling(const std::vector<btScalar>& pull, const std::vector<btScalar>& shear);
+
   /// Lets what arrived at a node in this step join it at once: mixes in its momentum, which otherwise waits for the
   /// commit. For an effect that makes water leave the node, and wants the velocity that this water has.
   void joinArrivals(std::size_t node) { m_masses.joinArrival(m_water, node); }

@@ -142,6 +142,31 @@ TEST(NoAllocationOfTheGuard, InALayeredHeapAtRest) {
   EXPECT_GT(scene.totals().pairs, pairs) << "something was held apart";
 }
 
+TEST(NoAllocationOfTheGuard, InWetLayersThatTouch) {
+  if (!WETCLOTH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer owns operator new";
+  GuardScene scene;
+  scene.addFloor();
+  btSoftBody* const bodies[2] = {&scene.add(levelSheet(10, 0.5, btVector3(0, btScalar(0.02), 0))),
+                                 &scene.add(levelSheet(11, 0.4, btVector3(0, btScalar(0.025), 0)))};
+  wetcloth::WetClothWorld wet(scene.scene().bullet().world());
+  for (btSoftBody* const body : bodies) {
+    body->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;
+    wetcloth::WetCloth& cloth = wet.add(*body);
+    wetcloth::ContactWetting::Parameters parameters;
+    parameters.cloths = true;
+    cloth.add<wetcloth::ContactWetting>(parameters);
+    cloth.add<wetcloth::WetFriction>();
+    cloth.add<wetcloth::Cling>();
+    cloth.setSaturation(body == bodies[0] ? 0.2 : 1);
+  }
+  scene.step(120);
+  ASSERT_GT(bodies[1]->m_scontacts.size(), 0);
+  for (int step = 0; step < 60; ++step) {
+    ASSERT_EQ(allocationsIn([&] { scene.step(1); }), 0) << "in step " << step;
+  }
+  EXPECT_GT(wet.find(*bodies[0])->ledger().absorbed, 0);
+}
+
 WETCLOTH_IN_EVERY_WORLD(NoAllocation);
 
 class NoAllocationOnClothSolver : public testing::TestWithParam<WorldKind> {

@@ -111,14 +111,18 @@ void Cling::attach(WetCloth& cloth) {
   if (!why.empty()) reject("Cling", why);
   cloth.restMesh();
   m_bonds.resize(cloth.water().size());
+  m_pull.resize(cloth.water().size());
+  m_shear.resize(cloth.water().size());
 }
 
-void Cling::detach(WetCloth&) {
+void Cling::detach(WetCloth& cloth) {
+  cloth.setLayerCling({}, {});
   m_bonds.assign(m_bonds.size(), Bond());
   m_bondCount = 0;
 }
 
 void Cling::apply(WetCloth& cloth, const Step& step) {
+  if (cloth.isGuarded()) holdLayers(cloth);
   renew(cloth, step, knowsContacts(cloth, step));
   if (m_bondCount == 0) return;
   WorldObjects objects(cloth.world().world());
@@ -250,6 +254,19 @@ void Cling::hold(WetCloth& cloth, const Step& step, std::size_t i) {
     rigid->activate();
     rigid->applyImpulse(-given.impulse, arm);
   }
+}
+
+// Vertices of both layers hold: half of the stress each.
+void Cling::holdLayers(WetCloth& cloth) {
+  bool isDry = true;
+  for (std::size_t i = 0; i < m_pull.size(); ++i) {
+    const double area = contactArea(cloth.restMesh(), cloth.water(), cloth.fabric().arealDensity, i);
+    const double strength = share(cloth.water().saturation(i)) * area / 2;
+    isDry = isDry && !(strength > 0);
+    m_pull[i] = static_cast<btScalar>(m_parameters.adhesion * strength);
+    m_shear[i] = static_cast<btScalar>(m_parameters.shearStrength * strength);
+  }
+  isDry ? cloth.setLayerCling({}, {}) : cloth.setLayerCling(m_pull, m_shear);
 }
 
 // The shape that it had may have been deleted: only addresses are compared.

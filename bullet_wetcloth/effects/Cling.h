@@ -45,6 +45,10 @@ WETCLOTH_EXPORT BondImpulse bondImpulse(const btVector3& needed, const btVector3
 /// While Bullet still reports the contact, the weight alone decides whether the bond breaks: velocities away from the
 /// surface are then Bullet's own, getting the node out of the collision margin, and are held within the same limit.
 ///
+/// Layers that the guard of a ClothSolver keeps apart, of two cloths or of one, hold each other in the same way, with
+/// the mean of both stresses: a cloth without Cling, or too dry, adds nothing. That is no bond but lasts as long as the
+/// layers touch (docs/guard.md), in each small step, whatever pulls them apart.
+///
 /// Objects without contact response and links of multi-bodies are left out. Stresses follow the saturation: 0 at
 /// `minimumSaturation` and below, all at `peakSaturation`, `floodedShare` at 1.
 class WETCLOTH_EXPORT Cling : public Effect {
@@ -113,13 +117,16 @@ class WETCLOTH_EXPORT Cling : public Effect {
   static bool hasShapeOf(const Bond& bond);
   static void rememberShape(Bond& bond);
   void release(Bond& bond);
+  void holdLayers(WetCloth& cloth);
   static void transferBond(StateArchive& archive, Bond& bond);
 
   Parameters m_parameters;
   WetnessCurve m_curve;
   std::vector<Bond> m_bonds;  // by node
   int m_bondCount = 0;
-  double m_nextTime = -1;  // of a step without sleep in between [s]; < 0: none before
+  std::vector<btScalar> m_pull;   // by node: what holds it on another layer [N]
+  std::vector<btScalar> m_shear;  // and along it [N]
+  double m_nextTime = -1;         // of a step without sleep in between [s]; < 0: none before
   long long m_nodesVisited = 0;
 };
 

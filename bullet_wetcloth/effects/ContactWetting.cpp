@@ -171,6 +171,8 @@ void ContactWetting::apply(WetCloth& cloth, const Step& step) {
     exchange(cloth, other, step);
     exchange(other, cloth, step);
   });
+  // The guard of a ClothSolver lists what a cloth has of itself, Bullet's position-based worlds do not.
+  if (!cloth.isInDeformableWorld()) exchange(cloth, cloth, step);
 }
 
 // Contacts with bodies that have water. A cloth whose nodes and triangles both collide lists what touches twice.
@@ -237,7 +239,7 @@ void ContactWetting::exchange(WetCloth& nodesOf, WetCloth& facesOf, const Step& 
     touch = true;
   });
   if (!touch) return;
-  const bool areMany = nodesOf.world().cloths().size() > 2;
+  const bool areMany = &nodesOf != &facesOf && nodesOf.world().cloths().size() > 2;
   if (areMany) shareSides(nodesOf, facesOf);
   contacts.visit([&](const FaceContact& contact) {
     const double share = areMany ? shareOf(nodesOf, facesOf, contact) : 1;

@@ -40,6 +40,9 @@ WETCLOTH_EXPORT double equalisingFlow(double difference, double responseA, doubl
 /// a node share its area there: k of them at one place give what one does. What one cloth gives is `dripped` in its
 /// ledger and `absorbed` in the other's; it brings the velocity of the node that it leaves, a film's that of its body.
 ///
+/// Where the guard of a ClothSolver keeps cloths apart, its contacts take the place of Bullet's (docs/guard.md), and
+/// there are those of a cloth with itself, too: water that goes from layer to layer counts as dripped and as absorbed.
+///
 /// One of two cloths needs the effect. If both have it, the one that was added to the WetClothWorld first sees to the
 /// pair. Contacts are those of the last substep; of a sleeping cloth those of when it fell asleep, but for a rigid body
 /// that has been moved since. The first step in which another cloth is met may allocate.

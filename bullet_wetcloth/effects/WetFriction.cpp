@@ -66,11 +66,18 @@ void WetFriction::attach(WetCloth& cloth) {
                               "; with soft bodies, because " + noFaces);
   }
   m_hasFaceContacts = noFaces.empty();
+  m_factors.resize(cloth.water().size());
 }
+
+void WetFriction::detach(WetCloth& cloth) { cloth.setLayerFriction({}); }
 
 void WetFriction::apply(WetCloth& cloth, const Step&) {
   RigidContacts(cloth.body(), cloth.world().world(), cloth.isInDeformableWorld())
       .visit([&](const RigidContact& contact) { changeRigid(cloth, contact); });
+  if (cloth.isGuarded()) {
+    changeLayers(cloth);
+    return;
+  }
   if (!m_hasFaceContacts) return;
   const btAlignedObjectArray<btSoftBody*>& bodies = cloth.world().softBodies();
   for (int i = 0; i < bodies.size(); ++i) {
@@ -127,6 +134,15 @@ void WetFriction::changeSoft(WetCloth& cloth, btSoftBody& other) {
   FaceContacts(other, cloth.body(), false).visit([&](const FaceContact& contact) {
     change(*contact.positionBased, contact.point, nodePoint(contact.node));
   });
+}
+
+void WetFriction::changeLayers(WetCloth& cloth) {
+  bool isDry = true;
+  for (std::size_t i = 0; i < m_factors.size(); ++i) {
+    m_factors[i] = static_cast<btScalar>(m_curve.at(cloth.water().saturation(i)));
+    isDry = isDry && m_factors[i] == 1;
+  }
+  isDry ? cloth.setLayerFriction({}) : cloth.setLayerFriction(m_factors);
 }
 
 void WetFriction::transferState(StateArchive& archive) { archive.value(m_contactsVisited); }

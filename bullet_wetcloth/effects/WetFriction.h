@@ -6,6 +6,8 @@
 
 #include <BulletSoftBody/btSoftBody.h>
 
+#include <vector>
+
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
@@ -27,6 +29,9 @@ WETCLOTH_EXPORT btScalar slidingShare(btScalar friction, btScalar normal, const 
 /// kDF x the object's friction for rigid bodies; for two soft bodies, in the position-based worlds, the larger of the
 /// two, each with the factor of its own WetFriction. What the deformable world does between two soft bodies, it finds
 /// and applies after its solve, where nobody can reach it.
+///
+/// Between layers that the guard of a ClothSolver keeps apart, of two cloths or of one, the coefficient is the guard's
+/// own (ClothGuardParameters::friction) times the larger of the two factors.
 class WETCLOTH_EXPORT WetFriction : public Effect {
  public:
   /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
@@ -51,6 +56,7 @@ class WETCLOTH_EXPORT WetFriction : public Effect {
   Stage stage() const override { return Stage::contact; }
   /// Throws std::invalid_argument when Bullet lists none of this body's contacts, with the reason.
   void attach(WetCloth& cloth) override;
+  void detach(WetCloth& cloth) override;
   void apply(WetCloth& cloth, const Step& step) override;
   void transferState(StateArchive& archive) override;
 
@@ -61,10 +67,12 @@ class WETCLOTH_EXPORT WetFriction : public Effect {
   double factorAt(const WetCloth& cloth, const ContactPoint& point) const;
   void changeRigid(const WetCloth& cloth, const RigidContact& contact);
   void changeSoft(WetCloth& cloth, btSoftBody& other);
+  void changeLayers(WetCloth& cloth);
 
   Parameters m_parameters;
   WetnessCurve m_curve;
   bool m_hasFaceContacts = false;
+  std::vector<btScalar> m_factors;  // by node
   long long m_contactsVisited = 0;
 };
 

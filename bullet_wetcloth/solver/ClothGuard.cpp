@@ -13,7 +13,8 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-constexpr double kThicknessOfEdge = 0.5;  // of the mean edge, at most: neighbours are not to push each other
+constexpr btScalar kTouching = btScalar(17.0 / 16);  // of the thickness
+constexpr double kThicknessOfEdge = 0.5;             // of the mean edge, at most: neighbours are not to push each other
 // How far nodes may leave the way that is expected of them, on each axis: shares of the mean edge, of the way ahead,
 // and of what their present acceleration does in one small step and in those ahead.
 constexpr btScalar kLeastSlackOfEdge = btScalar(0.01);
@@ -169,6 +170,7 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
   m_nodes.setBodies(cloths.back().mesh->isOfBodies ? m_first.back() : count);
   m_edge = static_cast<btScalar>(edge);
   m_contact.thickness = static_cast<btScalar>(std::min(parameters.thickness, kThicknessOfEdge * edge));
+  m_contact.touching = kTouching * m_contact.thickness;
   m_contact.mostParting = kPartingOfEdge * m_edge;
   m_contact.friction = static_cast<btScalar>(parameters.friction);
   for (std::size_t c = 0; c < cloths.size(); ++c) {
@@ -191,11 +193,27 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
   m_contact.rounding = m_rounding;
   m_leastSlack = std::max(kLeastSlackOfEdge * m_edge, kRoundingsOfSlack * m_rounding);
   m_mostSlack = std::max(kMostSlackOfEdge * m_edge, m_leastSlack);
+  takeWetness();
   m_pairs.clear();
   m_smallSteps = smallSteps;
   m_taken = 0;
   m_age = m_ahead = 0;  // to be looked at
   forgetAside();
+}
+
+void ClothGuard::takeWetness() {
+  m_nodes.friction.clear();
+  m_pairs.cling().begin(m_nodes.to.size());
+  for (std::size_t c = 0; c < m_cloths.size(); ++c) {
+    const LayerWetness* const wetness = m_cloths[c].wetness;
+    const std::size_t count = toSize(m_cloths[c].nodeCount);
+    if (!wetness) continue;
+    m_pairs.cling().add(m_first[c], count, *wetness, m_cloths[c].h);
+    if (wetness->friction.size() != count) continue;
+    m_nodes.startFriction();
+    std::copy(wetness->friction.begin(), wetness->friction.end(),
+              m_nodes.friction.begin() + static_cast<std::ptrdiff_t>(m_first[c]));
+  }
 }
 
 void ClothGuard::keep() {
@@ -210,6 +228,7 @@ void ClothGuard::keep() {
 
 void ClothGuard::hold() {
   for (GuardNodes::Place& recoil : m_nodes.recoil) recoil = {};
+  m_pairs.cling().renew();
   m_age >= m_ahead ? look() : static_cast<void>(++m_age);
   if (!m_pairs.isEmpty()) {
     gather();

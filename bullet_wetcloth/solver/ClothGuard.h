@@ -35,6 +35,7 @@ class ClothGuard {
     btScalar h;            ///< of its small steps [s]
     bool isStill = false;  ///< it is not stepped: nothing moves it
     bool isNew = false;    ///< its mesh is a new one
+    const LayerWetness* wetness = nullptr;
   };
 
   /// Before the first small step of a step: nodes stand where they were at its end, and pins where they come from.
@@ -46,6 +47,18 @@ class ClothGuard {
   void hold();
   /// What the nodes of bodies have pushed since then: see GuardNodes.
   const std::vector<GuardNodes::Place>& recoil() const { return m_nodes.recoil; }
+
+  /// After hold(): the planes between vertices and faces, and the nodes that they name, at `to`.
+  const GuardPlanes& vertexFace() const { return m_pairs.vertexFace(); }
+  const GuardNodes& nodes() const { return m_nodes; }
+  /// Of each cloth the first of its nodes among all.
+  const std::vector<std::size_t>& firstNodes() const { return m_first; }
+  /// Places that are nearer touch [m]: layers that lie on each other are the thickness apart, and a little more or
+  /// less.
+  btScalar touching() const { return m_contact.touching; }
+  btScalar frictionOf(std::size_t vertexFacePlane) const {
+    return m_pairs.frictionOf(m_pairs.vertexFace(), vertexFacePlane, m_nodes);
+  }
 
   const ClothSolver::GuardTotals& totals() const { return m_totals; }
   void resetTotals() { m_totals = {}; }
@@ -63,6 +76,7 @@ class ClothGuard {
   WaySlack slackFor(int steps) const;
   void addPlanes();
   void enforce();
+  void takeWetness();
   void forgetAside();
   void keepAside();
   void gather();

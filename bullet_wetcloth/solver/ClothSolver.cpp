@@ -2,9 +2,11 @@
 #include "bullet_wetcloth/solver/ClothSolver.h"
 
 #include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/mesh/FaceTree.h"
 #include "bullet_wetcloth/solver/ClothGuard.h"
 #include "bullet_wetcloth/solver/Crossings.h"
 #include "bullet_wetcloth/solver/GuardBodies.h"
+#include "bullet_wetcloth/solver/GuardContacts.h"
 #include "bullet_wetcloth/solver/PackedCloth.h"
 #include "bullet_wetcloth/solver/SmallStepCount.h"
 #include "bullet_wetcloth/solver/SmallStepViewers.h"
@@ -71,6 +73,11 @@ class Registry {
   }
 };
 
+// To Bullet, which collides by a tree of faces, and makes it in a body's first step only.
+void giveBack(btSoftBody& body) {
+  if (collidesWithSoftBodies(body) && body.m_fdbvt.empty() && !body.m_bUpdateRtCst) buildFaceTree(body);
+}
+
 }  // namespace
 
 class ClothSolver::Impl {
@@ -91,6 +98,9 @@ class ClothSolver::Impl {
     return nullptr;
   }
 
+  const char* whyNotTaken(const btSoftBody& body) const;
+  void seeWhoIsLeft(const btAlignedObjectArray<btSoftBody*>& softBodies);
+
   void log(const std::string& message) const {
     if (logger) logger(message);
   }
@@ -108,13 +118,33 @@ class ClothSolver::Impl {
   std::vector<PackedCloth*> guarded;            // in this step
   std::vector<ClothGuard::Cloth> guardedNodes;  // theirs, and those of rigid bodies
   std::vector<ClothGuard::Cloth> standing;      // those that are not stepped
+  std::vector<PackedCloth*> inContact;          // all of these, those that are stepped first
   GuardBodies bodies;
   std::vector<GuardBodies::Cloth> amongBodies;  // those that are guarded
   long long mostInside = 0;
   long long mostCrossing = 0;
+  bool isOneLeft = false;  // to Bullet, that collides with soft bodies
   SmallStepViewers viewers;
   std::function<void(const std::string&)> logger = [](const std::string& message) { std::clog << message << '\n'; };
 };
+
+// Bullet's contacts and the guard's do not know each other: of the bodies that collide all are taken, or none.
+const char* ClothSolver::Impl::whyNotTaken(const btSoftBody& body) const {
+  const char* const why = wetcloth::whyNotTaken(body);
+  if (why[0] != '\0' || !collidesWithSoftBodies(body)) return why;
+  if (!parameters.guard || !parameters.guard->others) {
+    return "it collides with other soft bodies, and stays with Bullet unless the guard is on for others";
+  }
+  return isOneLeft ? "it collides with other soft bodies, one of which is left to Bullet" : "";
+}
+
+void ClothSolver::Impl::seeWhoIsLeft(const btAlignedObjectArray<btSoftBody*>& softBodies) {
+  isOneLeft = false;
+  for (int k = 0; k < softBodies.size(); ++k) {
+    isOneLeft =
+        isOneLeft || (collidesWithSoftBodies(*softBodies[k]) && wetcloth::whyNotTaken(*softBodies[k])[0] != '\0');
+  }
+}
 
 void ClothSolver::Impl::warnOfBadNode(Taken& taken) const {
   const int node = taken.cloth.badNode();
@@ -154,7 +184,7 @@ void ClothSolver::setParameters(const Parameters& parameters) {
 }
 
 std::string ClothSolver::reasonNotTaken(const btSoftBody& body) const {
-  std::string why = whyNotTaken(body);
+  std::string why = m_impl->whyNotTaken(body);
   if (!why.empty()) return why;
   const Impl::Taken* const taken = m_impl->find(body);
   if (taken && taken->isStuck) return "node " + std::to_string(taken->cloth.badNode()) + " is not finite";
@@ -178,6 +208,18 @@ int ClothSolver::smallStepsIn(const btSoftBody& body, double dt) const {
 void ClothSolver::setLinkStiffness(const btSoftBody& body, const std::vector<btScalar>& factors,
                                    unsigned long long revision) {
   if (Impl::Taken* const taken = m_impl->find(body)) taken->cloth.setLinkStiffness(factors, revision);
+}
+
+void ClothSolver::setLayerFriction(const btSoftBody& body, const std::vector<btScalar>& factors) {
+  if (Impl::Taken* const taken = m_impl->find(body)) taken->cloth.wetness().friction = factors;
+}
+
+void ClothSolver::setLayerCling(const btSoftBody& body, const std::vector<btScalar>& pull,
+                                const std::vector<btScalar>& shear) {
+  Impl::Taken* const taken = m_impl->find(body);
+  if (!taken) return;
+  taken->cloth.wetness().pull = pull;
+  taken->cloth.wetness().shear = shear;
 }
 
 PackedNodes* ClothSolver::packedNodes(const btSoftBody& body) {
@@ -207,11 +249,15 @@ void ClothSolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool force
   m_impl->viewers.forgetTheDead();
   std::vector<std::unique_ptr<Impl::Taken>>& cloths = m_impl->before;
   cloths.swap(m_impl->cloths);
+  m_impl->seeWhoIsLeft(bodies);
   for (int k = 0; k < bodies.size(); ++k) {
-    if (whyNotTaken(*bodies[k])[0] != '\0') continue;
     const auto known = std::find_if(cloths.begin(), cloths.end(), [&](const std::unique_ptr<Impl::Taken>& taken) {
       return taken && &taken->cloth.body() == bodies[k];
     });
+    if (m_impl->whyNotTaken(*bodies[k])[0] != '\0') {
+      if (known != cloths.end()) giveBack(*bodies[k]);
+      continue;
+    }
     m_impl->cloths.push_back(known != cloths.end() ? std::move(*known) : std::make_unique<Impl::Taken>(*bodies[k]));
     m_impl->cloths.back()->cloth.followMesh();
   }
@@ -259,7 +305,7 @@ void ClothSolver::processCollision(btSoftBody* body, const btCollisionObjectWrap
 }
 
 void ClothSolver::processCollision(btSoftBody* body, btSoftBody* other) {
-  btDefaultSoftBodySolver::processCollision(body, other);
+  if (!m_impl->find(*body) && !m_impl->find(*other)) btDefaultSoftBodySolver::processCollision(body, other);
 }
 
 // From where the nodes are now.
@@ -289,13 +335,17 @@ void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& so
   amongBodies.clear();
   standing.clear();
   bool isAnyNew = false;
+  inContact.clear();
   int count = 0;
   for (int k = 0; k < softBodies.size(); ++k) {
     Taken* const taken = find(*softBodies[k]);
     if (!taken) continue;
     if (!softBodies[k]->isActive() || !taken->cloth.beginSmallSteps(parameters)) {
-      if (const std::optional<ClothGuard::Cloth> still = taken->cloth.standing()) standing.push_back(*still);
-      isAnyNew = isAnyNew || (!standing.empty() && standing.back().isNew);
+      if (const std::optional<ClothGuard::Cloth> still = taken->cloth.standing()) {
+        isAnyNew = isAnyNew || still->isNew;
+        standing.push_back(*still);
+        inContact.push_back(&taken->cloth);
+      }
       continue;
     }
     guarded.push_back(&taken->cloth);
@@ -330,6 +380,8 @@ void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& so
       if (k < cloth->smallSteps()) cloth->show(viewers, k);
     }
   }
+  inContact.insert(inContact.begin(), guarded.begin(), guarded.end());
+  listContacts(guard, inContact, guarded.size());
   for (PackedCloth* const cloth : guarded) cloth->endSmallSteps();
   if (hasBodies) bodies.end();
 }

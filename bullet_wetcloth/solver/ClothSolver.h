@@ -117,7 +117,8 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   /// Between steps. Throws as the constructor does; then nothing has changed.
   void setParameters(const Parameters& parameters);
 
-  /// Why this body is stepped by Bullet's own solver, or not at all; empty: it is taken, from the next step on.
+  /// Why this body is stepped by Bullet's own solver, or not at all; empty: it is taken, from the next step on. What it
+  /// says of other bodies is what they were in the last step.
   std::string reasonNotTaken(const btSoftBody& body) const;
   /// How many Parameters::smallSteps a body needs so that its links stretch as their stiffness says: h^2 is then at
   /// most the inverse of stiffness and half the sum of both ends' inverse masses, for every link. As the body was in
@@ -133,6 +134,13 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   /// its material: factors > 0, or none at all. `revision` tells this call's factors from another's: with that of the
   /// last call nothing is done. WetCloth calls it in each step for what WetStiffness has set.
   void setLinkStiffness(const btSoftBody& body, const std::vector<btScalar>& factors, unsigned long long revision);
+
+  /// What the guard does between layers of a body that is taken, by node: it multiplies Guard::friction by these, >= 0;
+  /// of two layers the larger factor counts. Empty: by 1. WetCloth calls it in each step for WetFriction.
+  void setLayerFriction(const btSoftBody& body, const std::vector<btScalar>& factors);
+  /// What keeps each node on a layer that it touches, away from it and along it [N], >= 0; empty: nothing. WetCloth
+  /// calls it in each step for Cling.
+  void setLayerCling(const btSoftBody& body, const std::vector<btScalar>& pull, const std::vector<btScalar>& shear);
 
   /// Sees the nodes' places after each small step; an empty one sees nothing.
   void setSmallStepCallback(SmallStepCallback callback);
@@ -164,7 +172,7 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   void predictMotion(btScalar dt) override;
   /// Finds the contacts with a rigid body or a link of a multibody.
   void processCollision(btSoftBody* body, const btCollisionObjectWrapper* object) override;
-  /// Of two soft bodies: left to Bullet.
+  /// Of two soft bodies: the guard's, if it has them; else Bullet's.
   void processCollision(btSoftBody* body, btSoftBody* other) override;
   /// The small steps.
   void solveConstraints(btScalar dt) override;

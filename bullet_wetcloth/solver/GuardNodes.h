@@ -27,6 +27,8 @@ struct GuardNodes {
   std::vector<Place> end;             ///< where it is expected until
   std::vector<Place> aside;           ///< how far of that they were moved without a change of velocity
   std::vector<btScalar> inverseMass;  ///< [1/kg]
+  /// Factor of friction by wetness; none at all: 1.
+  std::vector<btScalar> friction;
   int firstOfBodies = std::numeric_limits<int>::max();
   /// Of each node of bodies, from firstOfBodies on: what it has pushed in this small step, the other way [kg m], and
   /// times how far [kg m^2].
@@ -44,6 +46,12 @@ struct GuardNodes {
   void setBodies(std::size_t first) {
     firstOfBodies = static_cast<int>(first);
     recoil.assign(to.size() - first, {});
+  }
+  /// As dry cloths have it; bodies have none of their own.
+  void startFriction() {
+    if (!friction.empty()) return;
+    friction.resize(to.size(), 1);
+    for (std::size_t k = 0; k < recoil.size(); ++k) friction[static_cast<std::size_t>(firstOfBodies) + k] = 0;
   }
   bool isOfBodies(int node) const { return node >= firstOfBodies; }
   /// A node of a body has pushed something.

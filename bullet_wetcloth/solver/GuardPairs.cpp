@@ -148,8 +148,11 @@ GuardPairs::Outcome GuardPairs::enforce(GuardNodes& nodes) {
   Outcome outcome;
   m_isMeasured = false;
   bool isClear = false;
+  bool isPulled = false;  // a stack that hangs takes all passes
   for (int k = 0; k < kPasses && !isClear; ++k) {
-    isClear = pass(m_vertexFace, nodes);
+    const btScalar pulled = m_cling.hold(m_vertexFace, {reach(), m_contact.touching}, nodes);
+    isPulled = isPulled || (k == 0 && pulled > kStill * reach());
+    isClear = pass(m_vertexFace, nodes) && !isPulled;
     isClear = pass(m_edgeEdge, nodes) && isClear;
   }
   m_groups.clear(nodes.to.size());
@@ -226,7 +229,7 @@ btScalar GuardPairs::keepApart(const GuardPlanes& planes, std::size_t plane, Gua
   }
   slide = slide - normal * everywhere<Quad>(dot(slide, normal));
   const btScalar length = std::sqrt(dot(slide, slide));
-  const btScalar held = length > 0 ? std::min(btScalar(1), m_contact.friction * missing / length) : 0;
+  const btScalar held = length > 0 ? std::min(btScalar(1), frictionOf(planes, plane, nodes) * missing / length) : 0;
   const Quad move = normal * everywhere<Quad>(missing) - slide * everywhere<Quad>(held);
   for (int k = 0; k < 4; ++k) {
     const std::size_t i = toSize(planes.node(plane, k));
@@ -235,6 +238,17 @@ btScalar GuardPairs::keepApart(const GuardPlanes& planes, std::size_t plane, Gua
     if (nodes.isOfBodies(node)) nodes.addRecoil(node, vectorOf(move) * (-planes.weight(plane, k) / yield), missing);
   }
   return missing;
+}
+
+// The larger one of the two sides; rigid bodies have none of their own.
+btScalar GuardPairs::frictionOf(const GuardPlanes& planes, std::size_t plane, const GuardNodes& nodes) const {
+  if (nodes.friction.empty()) return m_contact.friction;
+  btScalar factors[2] = {0, 0};
+  for (int k = 0; k < 4; ++k) {
+    factors[k < planes.first() ? 0 : 1] +=
+        std::fabs(planes.weight(plane, k)) * nodes.friction[toSize(planes.node(plane, k))];
+  }
+  return m_contact.friction * std::max(factors[0], factors[1]);
 }
 
 // Moves the two nodes that are nearest to the other side.

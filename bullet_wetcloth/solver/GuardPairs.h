@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/solver/GuardCling.h"
 #include "bullet_wetcloth/solver/GuardGroups.h"
 #include "bullet_wetcloth/solver/GuardNodes.h"
 #include "bullet_wetcloth/solver/GuardPlanes.h"
@@ -18,6 +19,7 @@ class GuardPairs {
   /// How parts act on each other.
   struct Contact {
     btScalar thickness;    ///< nearer than that they do not approach, and slowly part [m]
+    btScalar touching;     ///< nearer than that wet ones hold each other [m]
     btScalar friction;     ///< coefficient
     btScalar rounding;     ///< of a place [m]
     btScalar mostParting;  ///< how far they part in a small step at most [m]
@@ -41,6 +43,11 @@ class GuardPairs {
     }
   }
   bool isEmpty() const { return size() == 0; }
+  /// What holds wet layers together.
+  GuardCling& cling() { return m_cling; }
+  /// Coefficient between the two places of a plane.
+  btScalar frictionOf(const GuardPlanes& planes, std::size_t plane, const GuardNodes& nodes) const;
+  const GuardPlanes& vertexFace() const { return m_vertexFace; }
   std::size_t size() const { return m_vertexFace.size() + m_edgeEdge.size(); }
 
   /// Parts that are within the thickness move away from each other, without a change of velocity. Once a small step.
@@ -82,6 +89,7 @@ class GuardPairs {
   bool m_isMeasured = false;  // all planes, where nodes are
   std::vector<Violation> m_violated;
   Contact m_contact = {};
+  GuardCling m_cling;
   GuardGroups m_groups;
 };
 

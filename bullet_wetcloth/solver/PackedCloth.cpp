@@ -72,6 +72,7 @@ void PackedCloth::takeMesh() {
   m_tiles = slots.tiles;
   m_grid = slots.grid;
   m_guardMesh.reset();
+  m_facesByNodes.reset();
   m_nodes.reset(slots);
   m_links.reset(m_body, slots);
   m_normals.reset(m_body, slots);
@@ -291,7 +292,8 @@ ClothGuard::Cloth PackedCloth::guarded() {
   const bool isNew = !m_guardMesh;
   if (isNew) m_guardMesh = std::make_unique<GuardMesh>(guardMeshOf(m_body, m_grid));
   return {m_guardMesh.get(), m_nodes.moving(), m_nodes.slots(), m_nodes.nodeCount(),
-          m_nodes.origin(),  m_step.h,         false,           isNew};
+          m_nodes.origin(),  m_step.h,         false,           isNew,
+          &m_wetness};
 }
 
 std::optional<ClothGuard::Cloth> PackedCloth::standing() {
@@ -300,6 +302,11 @@ std::optional<ClothGuard::Cloth> PackedCloth::standing() {
   ClothGuard::Cloth cloth = guarded();
   cloth.isStill = true;
   return cloth;
+}
+
+const FacesByNodes& PackedCloth::facesByNodes() {
+  if (!m_facesByNodes) m_facesByNodes = std::make_unique<FacesByNodes>(m_body);
+  return *m_facesByNodes;
 }
 
 void PackedCloth::finish() {

@@ -6,6 +6,7 @@
 #include "bullet_wetcloth/solver/ClothGuard.h"
 #include "bullet_wetcloth/solver/ClothSolver.h"
 #include "bullet_wetcloth/solver/ContactProjection.h"
+#include "bullet_wetcloth/solver/FacesByNodes.h"
 #include "bullet_wetcloth/solver/LocalNodes.h"
 #include "bullet_wetcloth/solver/NodeNormals.h"
 #include "bullet_wetcloth/solver/PackedLinks.h"
@@ -55,6 +56,8 @@ class PackedCloth {
   void followMesh();
   /// Before the step: the mesh, and the links as they are now.
   void follow(const ClothSolver::Parameters& parameters, btScalar dt);
+  /// Set anew before each step.
+  LayerWetness& wetness() { return m_wetness; }
   /// Scales the stiffness of each link; empty: of none. The revision tells whether these are others than before.
   void setLinkStiffness(const std::vector<btScalar>& factors, unsigned long long revision);
   /// Takes over the nodes, and predicts where they will be. False: the cloth rests in this step.
@@ -74,6 +77,7 @@ class PackedCloth {
   /// The same of one that has no small steps, since it sleeps or its time stands still; nothing when a node is not
   /// finite.
   std::optional<ClothGuard::Cloth> standing();
+  const FacesByNodes& facesByNodes();
   /// Writes back what Bullet and applications read.
   void finish();
 
@@ -102,8 +106,10 @@ class PackedCloth {
   SmallStepCount m_smallSteps;
   SmallStep m_step = {};  // each of this step
   int m_count = 0;
-  std::unique_ptr<GuardMesh> m_guardMesh;  // while it is guarded
+  std::unique_ptr<GuardMesh> m_guardMesh;        // while it is guarded
+  std::unique_ptr<FacesByNodes> m_facesByNodes;  // once its contacts are listed
   PinnedWays m_pins;
+  LayerWetness m_wetness;
   bool m_isGuarded = false;
   std::vector<btScalar> m_weights;  // of each link: the sum of its ends' inverse masses when the mesh was taken
   std::vector<btScalar> m_stiffnessFactors;  // of each link, or none

@@ -29,7 +29,7 @@ const char* whyNotTaken(const btSoftBody& body) {
   if (body.m_tetras.size() > 0) return "it has tetrahedra";
   if (body.m_clusters.size() > 0) return "it has clusters";
   if (body.m_joints.size() > 0) return "it has joints";
-  if (config.collisions & (Collision::VF_SS | Collision::CL_SS)) return "it collides with other soft bodies";
+  if (config.collisions & Collision::CL_SS) return "it collides with other soft bodies by clusters";
   if (config.collisions & Collision::RVSmask & ~Collision::SDF_RS) return "it collides with rigid bodies by clusters";
   if (config.kMT > 0 && body.m_pose.m_bframe) return "it keeps a pose (kMT)";
   if (config.kDG > 0 || config.kLF > 0) return "Bullet's own air acts on it (kDG, kLF)";
@@ -40,6 +40,10 @@ const char* whyNotTaken(const btSoftBody& body) {
   if (config.diterations > 0) return "it has drift iterations";
   if (!hasBulletsSequence(body)) return "the sequence of its position solver is another one than Bullet's";
   return "";
+}
+
+bool collidesWithSoftBodies(const btSoftBody& body) {
+  return (body.m_cfg.collisions & btSoftBody::fCollision::VF_SS) != 0;
 }
 
 }  // namespace WETCLOTH_PRECISION

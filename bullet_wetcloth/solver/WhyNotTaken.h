@@ -8,8 +8,11 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-/// What a body has that ClothSolver leaves to Bullet's own solver, in words for a message; empty: nothing.
+/// What a body has that ClothSolver leaves to Bullet's own solver, in words for a message; empty: nothing. That the
+/// body collidesWithSoftBodies() is left aside.
 const char* whyNotTaken(const btSoftBody& body);
+/// By vertices and faces (VF_SS), which is for the guard or for Bullet.
+bool collidesWithSoftBodies(const btSoftBody& body);
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth
