@@ -87,6 +87,16 @@ class BodyPassageCheck {
     m_places.resize(m_places.size() + surface.corners.size());
     putBodies(1, m_places);
   }
+  /// Looks no more at the surface that was added last.
+  void removeLast() {
+    const int first = int(m_places.size() - m_bodies.back().corners.size());
+    const auto isGone = [first](const auto& part) { return part[0] >= first; };
+    m_mesh.faces.erase(std::remove_if(m_mesh.faces.begin(), m_mesh.faces.end(), isGone), m_mesh.faces.end());
+    m_mesh.edges.erase(std::remove_if(m_mesh.edges.begin(), m_mesh.edges.end(), isGone), m_mesh.edges.end());
+    m_mesh.vertices.resize(std::size_t(first));
+    m_places.resize(std::size_t(first));
+    m_bodies.pop_back();
+  }
   void watch(wetcloth::ClothSolver& solver) {
     solver.setSmallStepCallback([this](const wetcloth::ClothSolver::SmallStepView& view) { see(view); });
   }
@@ -200,7 +210,10 @@ class ClothAndBodies {
   SolverScene& scene() { return m_scene; }
   /// Looks at one more surface.
   void watch(const btCollisionObject& object, const BodySurface& surface) { m_check->add(object, surface); }
-  void removeLastBody() { m_bodies.pop_back(); }
+  void removeLastBody() {
+    m_check->removeLast();
+    m_bodies.pop_back();
+  }
 
  private:
   static wetcloth::ClothSolver::Parameters parametersOf(bool isGuarded) {
