@@ -34,31 +34,54 @@ constexpr int kMostLooks = 12;                        // in a small step
 // Of a number near 1. In float64 more than double rounds, in which gaps near it are computed.
 constexpr btScalar kRoundingAtOne = std::max(std::numeric_limits<btScalar>::epsilon(), btScalar(1e-12));
 
-// Whether all places are where they were expected.
-struct OnTheWay {
+// Which places are where they were expected.
+struct ExpectedPlaces {
   btScalar* const (&place)[3];
   const PackedNodes::Lane (&from)[3];
   const PackedNodes::Lane (&way)[3];
   const btScalar* slack;
   std::size_t count;
   btScalar age;
-  bool& isOnIt;
+
+  template <class Lanes>
+  WETCLOTH_INLINE auto areFound(std::size_t i) const {
+    const Lanes limit = load<Lanes>(slack + i) * everywhere<Lanes>(kUsedSlack);
+    auto areFound = limit > everywhere<Lanes>(0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Lanes expected =
+          load<Lanes>(from[axis].data() + i) + load<Lanes>(way[axis].data() + i) * everywhere<Lanes>(age);
+      areFound = areFound & (absolute(load<Lanes>(place[axis] + i) - expected) <= limit);
+    }
+    return areFound;
+  }
+};
+
+struct AreAllFound {
+  ExpectedPlaces expected;
+  bool& result;
 
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
-    const Lanes used = everywhere<Lanes>(kUsedSlack);
-    auto isOn = used > everywhere<Lanes>(0);
-    for (std::size_t i = 0; i < count; i += kLaneCount<Lanes>) {
-      const Lanes limit = load<Lanes>(slack + i) * used;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Lanes expected =
-            load<Lanes>(from[axis].data() + i) + load<Lanes>(way[axis].data() + i) * everywhere<Lanes>(age);
-        isOn = isOn & (absolute(load<Lanes>(place[axis] + i) - expected) <= limit);
-      }
+    auto areFound = everywhere<Lanes>(1) > everywhere<Lanes>(0);
+    for (std::size_t i = 0; i < expected.count; i += kLaneCount<Lanes>) {
+      areFound = areFound & expected.areFound<Lanes>(i);
     }
     btScalar parts[kLaneCount<Lanes>];
-    store(parts, choose(isOn, everywhere<Lanes>(1), everywhere<Lanes>(0)));
-    for (const btScalar part : parts) isOnIt = isOnIt && part > 0;
+    store(parts, choose(areFound, everywhere<Lanes>(1), everywhere<Lanes>(0)));
+    for (const btScalar part : parts) result = result && part > 0;
+  }
+};
+
+// 1 for each that is, else 0.
+struct MarkFound {
+  ExpectedPlaces expected;
+  btScalar* mark;
+
+  template <class Lanes>
+  WETCLOTH_INLINE void run() const {
+    for (std::size_t i = 0; i < expected.count; i += kLaneCount<Lanes>) {
+      store(mark + i, choose(expected.areFound<Lanes>(i), everywhere<Lanes>(1), everywhere<Lanes>(0)));
+    }
   }
 };
 
@@ -85,50 +108,40 @@ struct Farthest {
 // The way in a small step, on average over some of them, of what goes on with its present acceleration, and how far it
 // may leave this way. A node has gone from `before` to `last`, and from there to `place`.
 struct Expect {
-  const btScalar* place;
-  const btScalar* last;
-  const btScalar* before;
-  btScalar* from;
-  btScalar* way;
+  btScalar* const (&place)[3];
+  const PackedNodes::Lane (&last)[3];
+  const PackedNodes::Lane (&before)[3];
+  PackedNodes::Lane (&from)[3];
+  PackedNodes::Lane (&way)[3];
   btScalar* slack;  // the largest along all axes
   std::size_t count;
   btScalar steps;
   WaySlack slackOf;
+  double& restless;  // more of them have the most slack
 
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
     const Lanes later = everywhere<Lanes>((steps - 1) / 2);
+    const Lanes most = everywhere<Lanes>(slackOf.most);
+    Lanes atLimit = everywhere<Lanes>(0);
     for (std::size_t i = 0; i < count; i += kLaneCount<Lanes>) {
-      const Lanes at = load<Lanes>(last + i);
-      const Lanes now = load<Lanes>(place + i) - at;
-      const Lanes earlier = at - load<Lanes>(before + i);
-      const Lanes acceleration = now - earlier;
-      store(from + i, at);
-      store(way + i, now + slackOf.bent(acceleration * later, earlier));
-      const Lanes wanted = slackOf.of(now, acceleration);
-      const Lanes known = load<Lanes>(slack + i);
-      store(slack + i, choose(wanted > known, wanted, known));
-    }
-  }
-};
-
-// How many have the most slack.
-struct CountRestless {
-  const btScalar* slack;
-  std::size_t count;
-  btScalar most;
-  double& result;
-
-  template <class Lanes>
-  WETCLOTH_INLINE void run() const {
-    const Lanes limit = everywhere<Lanes>(most);
-    Lanes sum = everywhere<Lanes>(0);
-    for (std::size_t i = 0; i < count; i += kLaneCount<Lanes>) {
-      sum = sum + choose(load<Lanes>(slack + i) >= limit, everywhere<Lanes>(1), everywhere<Lanes>(0));
+      Lanes largest = everywhere<Lanes>(0);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Lanes at = load<Lanes>(last[axis].data() + i);
+        const Lanes now = load<Lanes>(place[axis] + i) - at;
+        const Lanes earlier = at - load<Lanes>(before[axis].data() + i);
+        const Lanes acceleration = now - earlier;
+        store(from[axis].data() + i, at);
+        store(way[axis].data() + i, now + slackOf.bent(acceleration * later, earlier));
+        const Lanes wanted = slackOf.of(now, acceleration);
+        largest = choose(wanted > largest, wanted, largest);
+      }
+      store(slack + i, largest);
+      atLimit = atLimit + choose(largest >= most, everywhere<Lanes>(1), everywhere<Lanes>(0));
     }
     btScalar parts[kLaneCount<Lanes>];
-    store(parts, sum);
-    for (const btScalar part : parts) result += static_cast<double>(part);
+    store(parts, atLimit);
+    for (const btScalar part : parts) restless += static_cast<double>(part);
   }
 };
 
@@ -232,6 +245,7 @@ void ClothGuard::hold() {
   m_age >= m_ahead ? look() : static_cast<void>(++m_age);
   if (!m_pairs.isEmpty()) {
     gather();
+    m_isAside = true;
     m_pairs.part(m_nodes);
     scatter();
   }
@@ -253,6 +267,7 @@ void ClothGuard::hold() {
 void ClothGuard::enforce() {
   if (m_pairs.isEmpty()) return;
   gather();
+  m_isAside = true;
   const GuardPairs::Outcome outcome = m_pairs.enforce(m_nodes);
   scatter();
   m_totals.stopped += outcome.stopped;
@@ -260,12 +275,14 @@ void ClothGuard::enforce() {
 }
 
 void ClothGuard::forgetAside() {
+  if (!m_isAside) return;
+  m_isAside = false;
   for (GuardNodes::Place& aside : m_nodes.aside) aside = {};
 }
 
 // What moved nodes aside has changed where they would be without links and contacts, and so no velocity.
 void ClothGuard::keepAside() {
-  if (m_pairs.isEmpty()) return;
+  if (!m_isAside) return;
   for (std::size_t c = 0; c < m_cloths.size(); ++c) {
     const Cloth& cloth = m_cloths[c];
     for (int node = 0; node < cloth.nodeCount; ++node) {
@@ -278,6 +295,7 @@ void ClothGuard::keepAside() {
 }
 
 void ClothGuard::stopAll() {
+  forgetAside();
   ++m_totals.halts;
   for (std::size_t c = 0; c < m_cloths.size(); ++c) {
     const MovingNodes& nodes = m_cloths[c].nodes;
@@ -294,14 +312,14 @@ void ClothGuard::stopAll() {
 }
 
 bool ClothGuard::isWhereExpected() const {
-  bool isOnIt = true;
-  for (std::size_t c = 0; c < m_cloths.size() && isOnIt; ++c) {
+  bool areFound = true;
+  for (std::size_t c = 0; c < m_cloths.size() && areFound; ++c) {
     const Kept& kept = m_kept[c];
     const MovingNodes& nodes = m_cloths[c].nodes;
-    runOnBestLanes(OnTheWay{nodes.position, kept.from, kept.way, kept.slack.data(), nodes.count,
-                            static_cast<btScalar>(m_age), isOnIt});
+    runOnBestLanes(AreAllFound{
+        {nodes.position, kept.from, kept.way, kept.slack.data(), nodes.count, static_cast<btScalar>(m_age)}, areFound});
   }
-  return isOnIt;
+  return areFound;
 }
 
 // From the present small step on, for so many.
@@ -316,11 +334,7 @@ void ClothGuard::look() {
   ++m_totals.looks;
   m_age = 1;
   m_ahead = std::min(m_parameters.every, m_smallSteps - m_taken);
-  expectAll();
-  while (m_ahead > kFewAhead && areRestless()) {
-    m_ahead /= 2;
-    expectAll();
-  }
+  while (expectAll() > kRestless && m_ahead > kFewAhead) m_ahead /= 2;
   for (std::size_t c = 0; c < m_cloths.size(); ++c) {
     for (int node = 0; node < m_cloths[c].nodeCount; ++node) showExpected(c, node, 0);
   }
@@ -330,29 +344,23 @@ void ClothGuard::look() {
   addPlanes();
 }
 
-void ClothGuard::expectAll() {
+// Returns the share of restless nodes: they may need more than the most slack.
+double ClothGuard::expectAll() {
+  double restless = 0;
+  double all = 0;
   for (std::size_t c = 0; c < m_cloths.size(); ++c) {
     Kept& kept = m_kept[c];
     const MovingNodes& nodes = m_cloths[c].nodes;
-    kept.slack.assign(nodes.count, 0);
+    kept.slack.resize(nodes.count);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       kept.from[axis].resize(nodes.count);
       kept.way[axis].resize(nodes.count);
-      runOnBestLanes(Expect{nodes.position[axis], kept.last[axis].data(), kept.before[axis].data(),
-                            kept.from[axis].data(), kept.way[axis].data(), kept.slack.data(), nodes.count,
-                            static_cast<btScalar>(m_ahead), slackFor(m_ahead)});
     }
+    runOnBestLanes(Expect{nodes.position, kept.last, kept.before, kept.from, kept.way, kept.slack.data(), nodes.count,
+                          static_cast<btScalar>(m_ahead), slackFor(m_ahead), restless});
+    all += static_cast<double>(nodes.count);
   }
-}
-
-bool ClothGuard::areRestless() const {
-  double restless = 0;
-  double all = 0;
-  for (const Kept& kept : m_kept) {
-    runOnBestLanes(CountRestless{kept.slack.data(), kept.slack.size(), m_slackFactor * m_mostSlack, restless});
-    all += static_cast<double>(kept.slack.size());
-  }
-  return restless > kRestless * all;
+  return restless / all;
 }
 
 // The nodes that have left their way are expected on the one that they take now.
@@ -360,14 +368,20 @@ void ClothGuard::lookAgain() {
   ++m_totals.looks;
   m_left.clear();
   for (std::size_t c = 0; c < m_cloths.size(); ++c) {
-    for (int node = 0; node < m_cloths[c].nodeCount; ++node) {
-      if (isWhereExpected(c, node)) continue;
+    const Kept& kept = m_kept[c];
+    const Cloth& cloth = m_cloths[c];
+    m_isFound.resize(cloth.nodes.count);
+    runOnBestLanes(MarkFound{
+        {cloth.nodes.position, kept.from, kept.way, kept.slack.data(), cloth.nodes.count, static_cast<btScalar>(m_age)},
+        m_isFound.data()});
+    for (int node = 0; node < cloth.nodeCount; ++node) {
+      if (m_isFound[toSize(cloth.slots[node])] > 0) continue;
       expectOnPresentWay(c, node);
       m_left.push_back(static_cast<int>(m_first[c]) + node);
     }
   }
   m_candidates.clear();
-  m_tiles.findPairsAgain(m_nodes, m_left, m_candidates);
+  m_tiles.findPairsAgain(m_left, m_candidates);
   m_pairs.drop([&](int tileA, int tileB) { return m_tiles.areLookedAtAgain(tileA, tileB); });
   addPlanes();
 }
@@ -375,20 +389,9 @@ void ClothGuard::lookAgain() {
 void ClothGuard::addPlanes() {
   if (m_exemptions) m_exemptions->takeFrom(m_candidates);
   m_totals.candidates += static_cast<long long>(m_candidates.size());
-  if (!m_candidates.isEmpty()) gather();
+  gather(m_candidates);
   m_totals.meeting = std::max(m_totals.meeting, m_pairs.look(m_nodes, m_candidates, m_contact));
   m_totals.pairs += static_cast<long long>(m_pairs.size());
-}
-
-bool ClothGuard::isWhereExpected(std::size_t c, int node) const {
-  const Kept& kept = m_kept[c];
-  const std::size_t slot = toSize(m_cloths[c].slots[node]);
-  const btScalar age = static_cast<btScalar>(m_age);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const btScalar off = m_cloths[c].nodes.position[axis][slot] - (kept.from[axis][slot] + kept.way[axis][slot] * age);
-    if (!(std::fabs(off) <= kept.slack[slot] * kUsedSlack)) return false;
-  }
-  return true;
 }
 
 void ClothGuard::expectOnPresentWay(std::size_t c, int node) {
@@ -417,8 +420,7 @@ void ClothGuard::showExpected(std::size_t c, int node, int age) {
   const Kept& kept = m_kept[c];
   const btVector3 away = cloth.origin - m_cloths.front().origin;
   const std::size_t slot = toSize(cloth.slots[node]);
-  GuardNodes::Place& start = m_nodes.start[m_first[c] + toSize(node)];
-  GuardNodes::Place& end = m_nodes.end[m_first[c] + toSize(node)];
+  auto& [start, end] = m_nodes.expected[m_first[c] + toSize(node)];
   for (std::size_t axis = 0; axis < 3; ++axis) {
     start.at[axis] = kept.last[axis][slot] + away[static_cast<int>(axis)];
     end.at[axis] = start.at[axis] + kept.way[axis][slot] * static_cast<btScalar>(m_ahead - age);
@@ -428,18 +430,34 @@ void ClothGuard::showExpected(std::size_t c, int node, int age) {
 
 void ClothGuard::gather() {
   for (std::size_t c = 0; c < m_cloths.size(); ++c) {
-    const Cloth& cloth = m_cloths[c];
-    const btVector3 away = cloth.origin - m_cloths.front().origin;
-    for (int node = 0; node < cloth.nodeCount; ++node) {
-      const std::size_t i = m_first[c] + toSize(node);
-      const std::size_t slot = toSize(cloth.slots[node]);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        m_nodes.from[i].at[axis] = m_kept[c].last[axis][slot] + away[static_cast<int>(axis)];
-        m_nodes.to[i].at[axis] = cloth.nodes.position[axis][slot] + away[static_cast<int>(axis)];
+    for (int node = 0; node < m_cloths[c].nodeCount; ++node) gather(c, node);
+  }
+}
+
+// The nodes of these pairs, if that is less.
+void ClothGuard::gather(const GuardCandidates& pairs) {
+  if (4 * pairs.size() > m_nodes.to.size()) return gather();
+  for (const std::vector<GuardPair>* const some : {&pairs.vertexFace, &pairs.edgeEdge}) {
+    for (const GuardPair& pair : *some) {
+      for (const int node : pair.node) {
+        const auto next = std::upper_bound(m_first.begin(), m_first.end(), toSize(node));
+        const std::size_t c = static_cast<std::size_t>(next - m_first.begin()) - 1;
+        gather(c, node - static_cast<int>(m_first[c]));
       }
-      m_nodes.inverseMass[i] = cloth.isStill ? 0 : cloth.nodes.inverseMass[slot];
     }
   }
+}
+
+void ClothGuard::gather(std::size_t c, int node) {
+  const Cloth& cloth = m_cloths[c];
+  const btVector3 away = cloth.origin - m_cloths.front().origin;
+  const std::size_t i = m_first[c] + toSize(node);
+  const std::size_t slot = toSize(cloth.slots[node]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    m_nodes.from[i].at[axis] = m_kept[c].last[axis][slot] + away[static_cast<int>(axis)];
+    m_nodes.to[i].at[axis] = cloth.nodes.position[axis][slot] + away[static_cast<int>(axis)];
+  }
+  m_nodes.inverseMass[i] = cloth.isStill ? 0 : cloth.nodes.inverseMass[slot];
 }
 
 void ClothGuard::scatter() {

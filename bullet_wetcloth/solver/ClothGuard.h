@@ -66,10 +66,8 @@ class ClothGuard {
  private:
   void keep();
   bool isWhereExpected() const;
-  bool isWhereExpected(std::size_t cloth, int node) const;
   void look();
-  void expectAll();
-  bool areRestless() const;
+  double expectAll();
   void lookAgain();
   void expectOnPresentWay(std::size_t cloth, int node);
   void showExpected(std::size_t cloth, int node, int age);
@@ -80,6 +78,8 @@ class ClothGuard {
   void forgetAside();
   void keepAside();
   void gather();
+  void gather(const GuardCandidates& pairs);
+  void gather(std::size_t cloth, int node);
   void scatter();
   void stopAll();
 
@@ -103,11 +103,13 @@ class ClothGuard {
     PackedNodes::Lane slack;
   };
   std::vector<Kept> m_kept;
-  std::vector<int> m_left;  // nodes that were not where they were expected
-  int m_smallSteps = 0;     // in this step
-  int m_taken = 0;          // of them
-  int m_age = 0;            // small steps since the last look at all nodes, that one included
-  int m_ahead = 0;          // for how many it was
+  std::vector<int> m_left;      // nodes that were not where they were expected
+  PackedNodes::Lane m_isFound;  // of each node of a cloth, by slot
+  bool m_isAside = false;       // whether any node is
+  int m_smallSteps = 0;         // in this step
+  int m_taken = 0;              // of them
+  int m_age = 0;                // small steps since the last look at all nodes, that one included
+  int m_ahead = 0;              // for how many it was
   btScalar m_slackFactor = 1;
   btScalar m_edge = 0;        // the mean edge [m]
   btScalar m_rounding = 0;    // of a place [m]

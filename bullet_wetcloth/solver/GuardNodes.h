@@ -21,10 +21,13 @@ struct GuardNodes {
   struct Place {
     btScalar at[4];  ///< [m]; the last one is the slack of what is expected, else for the processor's sake
   };
-  std::vector<Place> from;            ///< at the end of the small step before
-  std::vector<Place> to;              ///< at the end of this one
-  std::vector<Place> start;           ///< where it is expected from
-  std::vector<Place> end;             ///< where it is expected until
+  struct Way {
+    Place start;
+    Place end;
+  };
+  std::vector<Place> from;  ///< at the end of the small step before
+  std::vector<Place> to;    ///< at the end of this one
+  std::vector<Way> expected;
   std::vector<Place> aside;           ///< how far of that they were moved without a change of velocity
   std::vector<btScalar> inverseMass;  ///< [1/kg]
   /// Factor of friction by wetness; none at all: 1.
@@ -37,8 +40,7 @@ struct GuardNodes {
   void resize(std::size_t count) {
     from.resize(count);
     to.resize(count);
-    start.resize(count);
-    end.resize(count);
+    expected.resize(count);
     aside.resize(count);
     inverseMass.resize(count);
   }

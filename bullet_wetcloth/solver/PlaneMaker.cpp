@@ -23,24 +23,37 @@ constexpr btScalar kPlain = 64;               // one that is more than that need
 const btScalar kAcrossAxes = std::sqrt(btScalar(3));
 constexpr double kDirect = 0.99;  // of a distance, that a gap along its direction has
 
-void placesOf(const GuardPair& pair, const std::vector<GuardNodes::Place>& from, double (&places)[4][3]) {
+// Places of a node: placeOf(node).
+template <class PlaceOf>
+void placesOf(const GuardPair& pair, const PlaceOf& placeOf, double (&places)[4][3]) {
   for (int node = 0; node < 4; ++node) {
-    for (int k = 0; k < 3; ++k) places[node][k] = static_cast<double>(from[toSize(pair.node[node])].at[k]);
+    for (int k = 0; k < 3; ++k) places[node][k] = static_cast<double>(placeOf(pair.node[node]).at[k]);
   }
 }
 
-// Where one of the nodes of each of four pairs is, by axis.
-WETCLOTH_INLINE void gatherPlaces(const GuardPair* pairs, std::size_t node, const std::vector<GuardNodes::Place>& from,
-                                  Quad (&axes)[4]) {
-  const Quad rows[4] = {
-      load<Quad>(from[toSize(pairs[0].node[node])].at), load<Quad>(from[toSize(pairs[1].node[node])].at),
-      load<Quad>(from[toSize(pairs[2].node[node])].at), load<Quad>(from[toSize(pairs[3].node[node])].at)};
-  transpose(rows, axes);
+// By axis.
+template <class PlaceOf>
+WETCLOTH_INLINE void placesOf(const GuardPair* pairs, const PlaceOf& placeOf, QuadPlaces& places) {
+  for (std::size_t node = 0; node < 4; ++node) {
+    const Quad rows[4] = {load<Quad>(placeOf(pairs[0].node[node]).at), load<Quad>(placeOf(pairs[1].node[node]).at),
+                          load<Quad>(placeOf(pairs[2].node[node]).at), load<Quad>(placeOf(pairs[3].node[node]).at)};
+    transpose(rows, places[node]);
+  }
 }
 
-WETCLOTH_INLINE void placesOf(const GuardPair* pairs, const std::vector<GuardNodes::Place>& from, QuadPlaces& places) {
-  for (std::size_t node = 0; node < 4; ++node) gatherPlaces(pairs, node, from, places[node]);
-}
+// Of a node among all.
+struct PresentPlace {
+  const GuardNodes& nodes;
+  WETCLOTH_INLINE const GuardNodes::Place& operator()(int node) const { return nodes.from[toSize(node)]; }
+};
+struct ExpectedStart {
+  const GuardNodes& nodes;
+  WETCLOTH_INLINE const GuardNodes::Place& operator()(int node) const { return nodes.expected[toSize(node)].start; }
+};
+struct ExpectedEnd {
+  const GuardNodes& nodes;
+  WETCLOTH_INLINE const GuardNodes::Place& operator()(int node) const { return nodes.expected[toSize(node)].end; }
+};
 
 // Where the nodes of four pairs are expected.
 struct QuadExpectation {
@@ -48,8 +61,8 @@ struct QuadExpectation {
   QuadPlaces end;
 
   WETCLOTH_INLINE QuadExpectation(const GuardPair* pairs, const GuardNodes& nodes) {
-    placesOf(pairs, nodes.start, start);
-    placesOf(pairs, nodes.end, end);
+    placesOf(pairs, ExpectedStart{nodes}, start);
+    placesOf(pairs, ExpectedEnd{nodes}, end);
   }
   // How far along any direction two parts may come nearer than they are expected: each node may be away by its slack on
   // each axis.
@@ -127,7 +140,7 @@ unsigned PlaneMaker::makeFour(const GuardPair* pairs, unsigned wanted, GuardPlan
   const unsigned left = wanted & ~farPairs<first>(expected.start, expected.end, near);
   if (left == 0) return 0;
   QuadPlaces now;
-  placesOf(pairs, m_nodes.from, now);
+  placesOf(pairs, PresentPlace{m_nodes}, now);
   const QuadSeparation separation = separationOf<first>(now);
   const Quad gapAtStart = gapAlong<first>(separation.normal, expected.start);
   const Quad gapAtEnd = gapAlong<first>(separation.normal, expected.end);
@@ -150,7 +163,7 @@ unsigned PlaneMaker::makeFour(const GuardPair* pairs, unsigned wanted, GuardPlan
 template <int first>
 bool PlaneMaker::makeExactly(const GuardPair& pair, GuardPlanes& planes) const {
   double places[4][3];
-  placesOf(pair, m_nodes.from, places);
+  placesOf(pair, PresentPlace{m_nodes}, places);
   Separation separation = first == 1 ? separationOfVertexAndFace(places) : separationOfEdges(places);
   int low = 0, high = 0;
   const double found = gapAlong(separation.normal, places, first, low, high);
@@ -170,8 +183,8 @@ bool PlaneMaker::makeExactly(const GuardPair& pair, GuardPlanes& planes) const {
   plane.gap = static_cast<btScalar>(gap);
   if (!(plane.gap > kMeeting * m_outlook.rounding)) return false;
   double expected[2][4][3];
-  placesOf(pair, m_nodes.start, expected[0]);
-  placesOf(pair, m_nodes.end, expected[1]);
+  placesOf(pair, ExpectedStart{m_nodes}, expected[0]);
+  placesOf(pair, ExpectedEnd{m_nodes}, expected[1]);
   const GuardPair four[4] = {pair, pair, pair, pair};
   const double near = static_cast<double>(m_outlook.near + QuadExpectation(four, m_nodes).slack<first>()[0]);
   if (std::min(gapAlong(normal, expected[0], first, low, high), gapAlong(normal, expected[1], first, low, high)) >

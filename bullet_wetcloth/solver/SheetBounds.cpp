@@ -9,65 +9,56 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
+// The middle of a box of vectors, and how much further they reach on each axis.
 struct Middle {
-  double at[3];
-  double half[3];
+  Quad at;
+  Quad half;
 
-  explicit Middle(const GuardBox& box) {
-    for (int k = 0; k < 3; ++k) {
-      at[k] = (static_cast<double>(box.low[k]) + static_cast<double>(box.high[k])) / 2;
-      half[k] = (static_cast<double>(box.high[k]) - static_cast<double>(box.low[k])) / 2;
-    }
+  WETCLOTH_INLINE explicit Middle(const GuardBox& box) {
+    constexpr Quad kHalf = {btScalar(0.5), btScalar(0.5), btScalar(0.5), 0};  // the fourth number is no place
+    at = (box.low + box.high) * kHalf;
+    half = (box.high - box.low) * kHalf;
   }
-  double along(const double (&direction)[3]) const {
-    return at[0] * direction[0] + at[1] * direction[1] + at[2] * direction[2];
-  }
-  // How much further any vector of the box reaches along a direction.
-  double reach(const double (&direction)[3]) const {
-    return half[0] * std::fabs(direction[0]) + half[1] * std::fabs(direction[1]) + half[2] * std::fabs(direction[2]);
-  }
-  double length() const { return std::sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]); }
 };
+
+WETCLOTH_INLINE Quad sumsOf(const Quad (&rows)[4]) {
+  Quad columns[4];
+  transpose(rows, columns);
+  return columns[0] + columns[1] + columns[2];
+}
 
 }  // namespace
 
 // With columns u / |u0| and v / |v0| of the map from the grid to space (u0 and v0 in the middles of the boxes), and two
-// directions e1, e2 near them: the symmetric part of the matrix of their components is positive definite for all
-// vectors of the boxes when the least of the diagonal is more than the largest beside it.
+// directions f1, f2 across each other in the plane of both, as far from u0 as from v0: the symmetric part of the matrix
+// of their components is positive definite for all vectors of the boxes when the least of the diagonal is more than the
+// largest beside it. With s the cosine between u0 and v0,
+//   f1 = alpha u0/|u0| - beta v0/|v0|,  f2 = alpha v0/|v0| - beta u0/|u0|,
+//   alpha, beta = (1/sqrt(1 - s) +- 1/sqrt(1 + s)) / 2.
 bool SheetBounds::areOfASheetThatCannotMeetItself() const {
   if (u.isEmpty() || v.isEmpty()) return false;
-  constexpr double kLeast = 0.05;  // far beyond what rounding does to numbers near 1
+  constexpr btScalar kLeast = btScalar(0.05);   // far beyond what rounding does to numbers near 1
+  constexpr btScalar kAcross = btScalar(0.01);  // least square of the sine between u0 and v0
   const Middle a(u);
   const Middle b(v);
-  const double lengthOfA = a.length();
-  const double lengthOfB = b.length();
-  if (!(lengthOfA > 0) || !(lengthOfB > 0)) return false;
-  double e1[3], e2[3];
-  double length1 = 0, length2 = 0;
-  for (int k = 0; k < 3; ++k) e1[k] = a.at[k] / lengthOfA;
-  const double skew = b.along(e1) / lengthOfB;
-  for (int k = 0; k < 3; ++k) e2[k] = b.at[k] / lengthOfB - skew * e1[k];
-  for (const double x : e2) length2 += x * x;
-  length2 = std::sqrt(length2);
-  if (!(length2 > kLeast)) return false;
-  for (double& x : e2) x /= length2;
-  // Half of the skew to either side.
-  const double turn = skew / (1 + length2);  // the tangent of half the angle, since skew^2 + length2^2 = 1
-  double f1[3], f2[3];
-  for (int k = 0; k < 3; ++k) {
-    f1[k] = e1[k] + turn * e2[k];
-    f2[k] = e2[k] - turn * e1[k];
-    length1 += f1[k] * f1[k];
-  }
-  for (int k = 0; k < 3; ++k) {
-    f1[k] /= std::sqrt(length1);
-    f2[k] /= std::sqrt(length1);
-  }
-  const double leastU = (a.along(f1) - a.reach(f1)) / lengthOfA;
-  const double leastV = (b.along(f2) - b.reach(f2)) / lengthOfB;
-  const double across = std::fabs(a.along(f2) / lengthOfA + b.along(f1) / lengthOfB) / 2 +
-                        (a.reach(f2) / lengthOfA + b.reach(f1) / lengthOfB) / 2;
-  return std::min(leastU, leastV) > across + kLeast;
+  const Quad products = sumsOf({a.at * a.at, b.at * b.at, a.at * b.at, a.at});
+  const btScalar perLengthOfA = 1 / std::sqrt(products[0]);
+  const btScalar perLengthOfB = 1 / std::sqrt(products[1]);
+  const btScalar s = products[2] * perLengthOfA * perLengthOfB;
+  if (!(1 - s * s > kAcross)) return false;  // nor where a length is 0
+  const btScalar plus = std::sqrt(1 + s);
+  const btScalar minus = std::sqrt(1 - s);
+  const btScalar alpha = (1 / minus + 1 / plus) / 2;
+  const btScalar beta = (1 / minus - 1 / plus) / 2;
+  const Quad unitA = a.at * everywhere<Quad>(perLengthOfA);
+  const Quad unitB = b.at * everywhere<Quad>(perLengthOfB);
+  const Quad f1 = absolute(unitA * everywhere<Quad>(alpha) - unitB * everywhere<Quad>(beta));
+  const Quad f2 = absolute(unitB * everywhere<Quad>(alpha) - unitA * everywhere<Quad>(beta));
+  const Quad reach = sumsOf({a.half * f1, b.half * f2, a.half * f2, b.half * f1}) *
+                     Quad{perLengthOfA, perLengthOfB, perLengthOfA, perLengthOfB};
+  const btScalar least = (plus + minus) / 2 - std::max(reach[0], reach[1]);
+  const btScalar across = (std::fabs(plus - minus) + reach[2] + reach[3]) / 2;
+  return least > across + kLeast;
 }
 
 }  // namespace WETCLOTH_PRECISION

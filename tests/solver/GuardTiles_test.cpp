@@ -81,7 +81,8 @@ class Tangle {
     GuardTiles tiles;
     addTo(tiles);
     GuardCandidates candidates;
-    tiles.findPairs(expected(to, expectation), expectation.near, scope, candidates);
+    const wetcloth::GuardNodes nodes = expected(to, expectation);
+    tiles.findPairs(nodes, expectation.near, scope, candidates);
     return listed(candidates);
   }
   // The same, but some nodes first were expected elsewhere.
@@ -90,8 +91,10 @@ class Tangle {
     GuardTiles tiles;
     addTo(tiles);
     GuardCandidates before, candidates;
-    tiles.findPairs(expected(first, expectation), expectation.near, {true, true}, before);
-    tiles.findPairsAgain(expected(then, expectation), changed, candidates);
+    wetcloth::GuardNodes nodes = expected(first, expectation);
+    tiles.findPairs(nodes, expectation.near, {true, true}, before);
+    nodes = expected(then, expectation);
+    tiles.findPairsAgain(changed, candidates);
     const auto keep = [&](const std::vector<wetcloth::GuardPair>& pairs, std::vector<wetcloth::GuardPair>& kept) {
       for (const auto& pair : pairs) {
         if (!tiles.areLookedAtAgain(pair.tile[0], pair.tile[1])) kept.push_back(pair);
@@ -115,10 +118,10 @@ class Tangle {
     nodes.resize(from.size());
     for (std::size_t k = 0; k < from.size(); ++k) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        nodes.start[k].at[axis] = btScalar(from[k][axis]);
-        nodes.end[k].at[axis] = btScalar(from[k][axis] + expectation.steps * (to[k][axis] - from[k][axis]));
+        nodes.expected[k].start.at[axis] = btScalar(from[k][axis]);
+        nodes.expected[k].end.at[axis] = btScalar(from[k][axis] + expectation.steps * (to[k][axis] - from[k][axis]));
       }
-      nodes.start[k].at[3] = nodes.end[k].at[3] = expectation.slack;
+      nodes.expected[k].start.at[3] = nodes.expected[k].end.at[3] = expectation.slack;
     }
     return nodes;
   }
