@@ -24,8 +24,9 @@ using Guard = std::optional<wetcloth::ClothSolver::Guard>;
 // A world with cloths, guarded or not, and perhaps a floor at y = 0.
 class Scene {
  public:
-  Scene(const std::vector<wetcloth::ClothPatch>& patches, const Guard& guard, bool hasFloor)
-      : m_solver(parametersOf(guard)), m_bullet(WorldKind::softRigid, btVector3(0, btScalar(-9.81), 0), &m_solver) {
+  Scene(const std::vector<wetcloth::ClothPatch>& patches, const Guard& guard, bool hasFloor, int smallSteps)
+      : m_solver(parametersOf(guard, smallSteps)),
+        m_bullet(WorldKind::softRigid, btVector3(0, btScalar(-9.81), 0), &m_solver) {
     if (hasFloor) {
       m_floor = std::make_unique<RigidBody>(m_bullet, std::make_unique<btBoxShape>(btVector3(3, 1, 3)), btScalar(0),
                                             btVector3(0, -1, 0));
@@ -47,9 +48,10 @@ class Scene {
   wetcloth::ClothSolver& solver() { return m_solver; }
 
  private:
-  static wetcloth::ClothSolver::Parameters parametersOf(const Guard& guard) {
+  static wetcloth::ClothSolver::Parameters parametersOf(const Guard& guard, int smallSteps) {
     wetcloth::ClothSolver::Parameters parameters;
     parameters.guard = guard;
+    parameters.smallSteps = smallSteps;
     return parameters;
   }
   wetcloth::ClothSolver m_solver;
@@ -59,9 +61,10 @@ class Scene {
 };
 
 void compare(benchmark::State& state, const std::vector<wetcloth::ClothPatch>& patches, bool hasFloor, int warmUp,
-             const Guard& without = std::nullopt, const Guard& with = wetcloth::ClothSolver::Guard()) {
-  Scene plain(patches, without, hasFloor);
-  Scene guarded(patches, with, hasFloor);
+             const Guard& without = std::nullopt, const Guard& with = wetcloth::ClothSolver::Guard(),
+             int smallSteps = wetcloth::ClothSolver::Parameters().smallSteps) {
+  Scene plain(patches, without, hasFloor, smallSteps);
+  Scene guarded(patches, with, hasFloor, smallSteps);
   for (int step = 0; step < warmUp; ++step) {
     plain.step();
     guarded.step();
@@ -77,6 +80,7 @@ void compare(benchmark::State& state, const std::vector<wetcloth::ClothPatch>& p
   const wetcloth::ClothSolver::GuardTotals totals = guarded.solver().guardTotals();
   state.counters["ratio"] = median(times[1]) / median(times[0]);
   state.counters["ms"] = 1e3 * median(times[1]);
+  state.counters["more_ms"] = 1e3 * (median(times[1]) - median(times[0]));
   state.counters["looks"] = static_cast<double>(totals.looks) / static_cast<double>(times[1].size());
   state.counters["pairs"] =
       totals.looks > 0 ? static_cast<double>(totals.pairs) / static_cast<double>(totals.looks) : 0;
@@ -126,10 +130,36 @@ void onABox(benchmark::State& state) {
 
 void heap(benchmark::State& state) { compare(state, {upright(sideOf(state), 0.1)}, true, 120); }
 
+// How the guard's time grows with the nodes: as many small steps as the finest cloth needs to hang smoothly, and a
+// thickness that is the same share of an edge, so that each node is near as many parts.
+Guard thicknessOfEdge(const benchmark::State& state) {
+  wetcloth::ClothSolver::Guard guard;
+  guard.thickness = 0.128 / sideOf(state);
+  return guard;
+}
+constexpr int kFine = 40;  // small steps
+
+void growthHanging(benchmark::State& state) {
+  wetcloth::ClothPatch patch = upright(sideOf(state));
+  patch.pinnedEdges = {wetcloth::ClothPatch::Edge::top};
+  compare(state, {patch}, false, 30, std::nullopt, thicknessOfEdge(state), kFine);
+}
+
+void growthTwoLayers(benchmark::State& state) {
+  wetcloth::ClothPatch lower = wetcloth_test::levelPatch(sideOf(state), 1);
+  wetcloth::ClothPatch upper = lower;
+  lower.origin.setY(btScalar(0.02));
+  upper.origin.setY(btScalar(0.03));
+  upper.origin.setX(upper.origin.x() + btScalar(0.01));
+  compare(state, {lower, upper}, true, 30, std::nullopt, thicknessOfEdge(state), kFine);
+}
+
 BENCHMARK(hanging)->Arg(64)->Arg(128)->Arg(256)->UseManualTime()->Iterations(120)->Unit(benchmark::kMillisecond);
 BENCHMARK(swinging)->Arg(64)->Arg(128)->Arg(256)->UseManualTime()->Iterations(120)->Unit(benchmark::kMillisecond);
 BENCHMARK(twoLayers)->Arg(64)->Arg(128)->UseManualTime()->Iterations(30)->Unit(benchmark::kMillisecond);
 BENCHMARK(onABox)->Arg(64)->Arg(128)->UseManualTime()->Iterations(60)->Unit(benchmark::kMillisecond);
 BENCHMARK(heap)->Arg(64)->Arg(128)->UseManualTime()->Iterations(30)->Unit(benchmark::kMillisecond);
+BENCHMARK(growthHanging)->Arg(64)->Arg(128)->Arg(256)->UseManualTime()->Iterations(20)->Unit(benchmark::kMillisecond);
+BENCHMARK(growthTwoLayers)->Arg(64)->Arg(128)->Arg(256)->UseManualTime()->Iterations(10)->Unit(benchmark::kMillisecond);
 
 }  // namespace
