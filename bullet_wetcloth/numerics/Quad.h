@@ -62,6 +62,9 @@ WETCLOTH_INLINE Quad splat(const Quad& quad) {
   return WETCLOTH_SHUFFLE(quad, quad, index, index, index, index);
 }
 
+/// The numbers of the second, third and first axis; the fourth stays.
+WETCLOTH_INLINE Quad turnAxes(const Quad& quad) { return WETCLOTH_SHUFFLE(quad, quad, 1, 2, 0, 3); }
+
 #undef WETCLOTH_SHUFFLE
 
 /// The lesser of each two; the second one where either is not a number.
@@ -122,6 +125,7 @@ template <int index>
 inline Quad splat(const Quad& quad) {
   return {{quad[index], quad[index], quad[index], quad[index]}};
 }
+inline Quad turnAxes(const Quad& quad) { return {{quad[1], quad[2], quad[0], quad[3]}}; }
 
 #endif
 

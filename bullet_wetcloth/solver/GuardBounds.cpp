@@ -2,6 +2,7 @@
 #include "bullet_wetcloth/solver/GuardBounds.h"
 
 #include "bullet_wetcloth/numerics/BestLanes.h"
+#include "bullet_wetcloth/solver/PatchBounds.h"
 
 #include <algorithm>
 #include <limits>
@@ -38,7 +39,7 @@ struct Surround {
     for (std::size_t part = 0; part < kNumbersOfWay; part += kLaneCount<Lanes>) {
       Range<Lanes> places, alongRows, alongColumns;
       for (int row = 0; row < rows; ++row) {
-        const btScalar* const at = first[row * stride].start.at + part;
+        const btScalar* const at = first[toSize(row) * toSize(stride)].start.at + part;
         const btScalar* const below = at + (row + 1 < rows ? toSize(stride) * kNumbersOfWay : 0);
         Lanes here = load<Lanes>(at);
         for (std::size_t column = 0; column < toSize(columns) * kNumbersOfWay; column += kNumbersOfWay) {
@@ -104,6 +105,10 @@ void GuardBounds::add(const GuardMesh& mesh, std::size_t firstNode) {
     growTo(m_end.firstSquare[k], level.isBound);
     growTo(m_end.firstSquare[k], level.four);
   }
+  growTo(m_end.firstSquare[0], m_normals);
+  growTo(m_end.firstSquare[0], m_normalsAreBound);
+  m_end.firstPatch += mesh.patches.size();
+  growTo(m_end.firstPatch, m_patches);
   m_end.firstCell += mesh.cells.size();
   m_end.firstEdge += mesh.edges.size();
   m_end.firstFace += mesh.faces.size();
@@ -119,6 +124,8 @@ void GuardBounds::boundTiles(const GuardNodes& nodes, btScalar near) {
     std::fill(level.isBound.begin(), level.isBound.end(), static_cast<unsigned char>(0));
     std::fill(level.four.begin(), level.four.end(), Flatness::unknown);
   }
+  std::fill(m_normalsAreBound.begin(), m_normalsAreBound.end(), static_cast<unsigned char>(0));
+  std::fill(m_patches.begin(), m_patches.end(), Flatness::unknown);
   std::fill(m_partsAreBound.begin(), m_partsAreBound.end(), static_cast<unsigned char>(0));
   for (const Cloth& cloth : m_cloths) {
     for (std::size_t tile = 0; tile < cloth.mesh->tiles.size(); ++tile) findTile(cloth, static_cast<int>(tile));
@@ -126,14 +133,18 @@ void GuardBounds::boundTiles(const GuardNodes& nodes, btScalar near) {
 }
 
 void GuardBounds::boundTile(const Cloth& cloth, int tile) {
+  const GuardMesh& mesh = *cloth.mesh;
   findTile(cloth, tile);
-  const GuardMesh::Tile& cells = cloth.mesh->tiles[toSize(tile)];
-  for (int cell = cells.cell; cell < cells.endCell; ++cell) {
+  for (int cell = mesh.tiles[toSize(tile)].cell; cell < mesh.tiles[toSize(tile)].endCell; ++cell) {
     m_partsAreBound[cloth.firstCell + toSize(cell)] = 0;
-    if (!cloth.mesh->isGrid())
-      m_levels[GuardGrid::kCells].isBound[cloth.firstSquare[GuardGrid::kCells] + toSize(cell)] = 0;
+    if (!mesh.isGrid()) m_levels[GuardGrid::kCells].isBound[cloth.firstSquare[GuardGrid::kCells] + toSize(cell)] = 0;
   }
-  if (cloth.mesh->isGrid()) forgetSquaresOf(cloth, tile);
+  if (mesh.isGrid()) return forgetSquaresOf(cloth, tile);
+  m_normalsAreBound[cloth.firstSquare[0] + toSize(tile)] = 0;
+  if (mesh.patches.empty()) return;
+  for (const int patch : mesh.patchesTouched[toSize(tile)]) {
+    m_patches[cloth.firstPatch + toSize(patch)] = Flatness::unknown;
+  }
 }
 
 // And whether they are flat with what is next to them.
@@ -269,6 +280,29 @@ bool GuardBounds::areFlatNow(const Cloth& cloth, int level, const GridRectangle&
     }
   }
   return bounds.areOfASheetThatCannotMeetItself();
+}
+
+bool GuardBounds::areInAFlatPatch(const Cloth& cloth, int tileA, int tileB) {
+  const GuardMesh& mesh = *cloth.mesh;
+  if (mesh.patches.empty()) return false;
+  for (const int k : mesh.patchesWithTile[toSize(tileA)]) {
+    const SheetPatch& patch = mesh.patches[toSize(k)];
+    if (!std::binary_search(patch.whole.begin(), patch.whole.end(), tileB)) continue;
+    Flatness& known = m_patches[cloth.firstPatch + toSize(k)];
+    if (known == Flatness::unknown) known = isFlat(cloth, patch) ? Flatness::flat : Flatness::perhapsNot;
+    if (known == Flatness::flat) return true;
+  }
+  return false;
+}
+
+bool GuardBounds::isFlat(const Cloth& cloth, const SheetPatch& patch) {
+  for (const int tile : patch.tiles) {
+    const std::size_t k = cloth.firstSquare[0] + toSize(tile);
+    if (m_normalsAreBound[k]) continue;
+    m_normalsAreBound[k] = 1;
+    m_normals[k] = normalsOfTile(*cloth.mesh, tile, *m_nodes, cloth.firstNode);
+  }
+  return cannotMeetItself(patch, &m_normals[cloth.firstSquare[0]], *m_nodes, cloth.firstNode);
 }
 
 // Whether it has two triangles in each cell; those of the last row and column have none.

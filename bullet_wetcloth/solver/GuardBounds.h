@@ -24,6 +24,7 @@ class GuardBounds {
     int nodeCount;
     std::size_t firstSquare[GuardGrid::kLevels];  ///< of another mesh: tile; -, -; cell
     std::size_t firstCell;
+    std::size_t firstPatch;
     std::size_t firstEdge;
     std::size_t firstFace;
   };
@@ -56,6 +57,8 @@ class GuardBounds {
   bool isFlat(const Cloth& cloth);
   /// Whether the squares of a rectangle of a grid are; those that are not near each other are not tried.
   bool areFlat(const Cloth& cloth, int level, const GridRectangle& squares);
+  /// The same for what of a mesh that is no grid is in one of its patches.
+  bool areInAFlatPatch(const Cloth& cloth, int tileA, int tileB);
   static bool areNear(int level, const GridRectangle& squares) {
     return squares.reachesAtMost(level < GuardGrid::kCells ? 2 : 3);
   }
@@ -76,6 +79,7 @@ class GuardBounds {
   Square squareOf(const Cloth& cloth, const GridRectangle& nodes) const;
   GuardBox boxOf(const Cloth& cloth, const int* nodes, int count) const;
   const Square& squareAt(const Cloth& cloth, int level, int row, int column);
+  bool isFlat(const Cloth& cloth, const SheetPatch& patch);
   void findTile(const Cloth& cloth, int tile);
   void forgetSquaresOf(const Cloth& cloth, int tile);
   bool areFlatNow(const Cloth& cloth, int level, const GridRectangle& squares);
@@ -84,6 +88,9 @@ class GuardBounds {
   std::vector<Cloth> m_cloths;
   Cloth m_end = {};  // of which nothing is there but where it would begin
   Level m_levels[GuardGrid::kLevels];
+  std::vector<GuardBox> m_normals;  // of tiles
+  std::vector<unsigned char> m_normalsAreBound;
+  std::vector<Flatness> m_patches;
   std::vector<GuardBox> m_edges;
   std::vector<GuardBox> m_faces;
   std::vector<unsigned char> m_partsAreBound;  // of cells

@@ -26,7 +26,7 @@ class GuardExemptions {
   }
   /// The next nodes of bodies are this one's, a number from 0.
   void addNodes(int body, std::size_t count) { m_bodyOfNode.insert(m_bodyOfNode.end(), count, body); }
-  void add(int node, int body) { m_exempt.push_back({body, node}); }
+  void add(int node, int body) { m_exempt.emplace_back(body, node); }
   /// After all add().
   void sort() {
     std::sort(m_exempt.begin(), m_exempt.end());

@@ -2,6 +2,7 @@
 #include "bullet_wetcloth/solver/GuardMesh.h"
 
 #include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/mesh/FaceWinding.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
 
 #include <algorithm>
@@ -57,7 +58,8 @@ class CellWriter {
         m_hasVertex(toSize(body.m_nodes.size())),
         m_hasEdge(m_rest.edges().size()),
         m_isCorner(m_hasVertex.size()),
-        m_edgesOfNode(m_hasVertex.size()) {
+        m_edgesOfNode(m_hasVertex.size()),
+        m_windings(faceWindings(m_rest)) {
     double sum = 0;
     for (const RestMesh::Edge& edge : m_rest.edges()) sum += edge.length;
     mesh.edgeLength = m_rest.edges().empty() ? 0 : sum / static_cast<double>(m_rest.edges().size());
@@ -90,7 +92,13 @@ class CellWriter {
     const GuardMesh::Face nodes = nodesOf(m_body, face);
     const bool isTriangle =
         nodes.node[0] != nodes.node[1] && nodes.node[1] != nodes.node[2] && nodes.node[2] != nodes.node[0];
-    if (isTriangle && !m_rest.triangles()[toSize(face)].isDoubled) m_mesh.faces.push_back(nodes);
+    if (!isTriangle || m_rest.triangles()[toSize(face)].isDoubled) return;
+    m_mesh.faces.push_back(nodes);
+    if (m_mesh.isGrid()) return;
+    const btSoftBody::Face& f = m_body.m_faces[face];
+    const btScalar doubleArea = (f.m_n[1]->m_x - f.m_n[0]->m_x).cross(f.m_n[2]->m_x - f.m_n[0]->m_x).length();
+    const btScalar winding = static_cast<btScalar>(m_windings[toSize(face)]);
+    m_mesh.windings.push_back(doubleArea > 0 ? winding / doubleArea : 0);
   }
   void addFaceWithParts(int face) {
     for (const int node : m_rest.triangles()[toSize(face)].nodes) addVertex(node);
@@ -112,6 +120,7 @@ class CellWriter {
   std::vector<bool> m_hasEdge;
   std::vector<bool> m_isCorner;
   std::vector<std::vector<int>> m_edgesOfNode;
+  std::vector<int> m_windings;
 };
 
 void fillGrid(const std::vector<std::vector<int>>& facesOfCorner, CellWriter& writer, GuardMesh& mesh) {
@@ -212,14 +221,35 @@ void GuardMesh::findTilesOfNodes(int nodeCount) {
   });
 }
 
+void GuardMesh::findPatches(const std::vector<btVector3>& places) {
+  patches = sheetPatchesOf(*this, places);
+  patchesWithTile.resize(tiles.size());
+  patchesTouched.resize(tiles.size());
+  tilesOfPatches.resize(tiles.size());
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    for (const int tile : patches[k].whole) patchesWithTile[toSize(tile)].push_back(static_cast<int>(k));
+    for (const int tile : patches[k].tiles) patchesTouched[toSize(tile)].push_back(static_cast<int>(k));
+  }
+  for (std::size_t tile = 0; tile < tiles.size(); ++tile) {
+    std::vector<int>& around = tilesOfPatches[tile];
+    for (const int patch : patchesWithTile[tile]) {
+      around.insert(around.end(), patches[toSize(patch)].tiles.begin(), patches[toSize(patch)].tiles.end());
+    }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+  }
+}
+
 GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Grid>& grid) {
   GuardMesh mesh;
   const bool isFull = grid && grid->columns * grid->rows == body.m_nodes.size();
   const auto facesOfCorner = isFull ? facesOfCorners(body, grid->columns) : std::vector<std::vector<int>>();
-  CellWriter writer(body, facesOfCorner.empty() ? 0 : grid->columns, mesh);
   if (!facesOfCorner.empty()) {
     mesh.columns = grid->columns;
     mesh.rows = grid->rows;
+  }
+  CellWriter writer(body, mesh.columns, mesh);
+  if (mesh.isGrid()) {
     fillGrid(facesOfCorner, writer, mesh);
   } else if (body.m_faces.size() > 0) {
     std::vector<int> order(toSize(body.m_faces.size()));
@@ -228,6 +258,9 @@ GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Gri
   }
   writer.beginCell(0, 0);
   mesh.findTilesOfNodes(body.m_nodes.size());
+  std::vector<btVector3> places;
+  for (int k = 0; k < body.m_nodes.size(); ++k) places.push_back(body.m_nodes[k].m_x);
+  mesh.findPatches(places);
   return mesh;
 }
 

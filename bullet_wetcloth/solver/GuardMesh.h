@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Precision.h"
 #include "bullet_wetcloth/solver/NodeSlots.h"
+#include "bullet_wetcloth/solver/SheetPatches.h"
 
 #include <BulletSoftBody/btSoftBody.h>
 
@@ -50,7 +51,14 @@ struct GuardMesh {
   std::vector<int> firstTileOfNode;
   std::vector<int> endTileOfNode;
   std::vector<int> tilesOfNodes;
-  int columns = 0;  ///< of nodes in a grid; 0: it is none
+  /// Of each face of a mesh that is no grid: which way round its nodes are, as faceWindings(), over twice its area
+  /// when the mesh was made [1/m^2]; 0 of one without area.
+  std::vector<btScalar> windings;
+  std::vector<SheetPatch> patches;                ///< of a mesh that is no grid
+  std::vector<std::vector<int>> patchesWithTile;  ///< of each tile, those that have all of its faces
+  std::vector<std::vector<int>> patchesTouched;   ///< of each tile, those that have any of its faces
+  std::vector<std::vector<int>> tilesOfPatches;   ///< of each tile, those of all patchesWithTile
+  int columns = 0;                                ///< of nodes in a grid; 0: it is none
   int rows = 0;
   int tileColumns = 0;
   int tileRows = 0;
@@ -59,6 +67,8 @@ struct GuardMesh {
 
   /// Finds the tiles of so many nodes.
   void findTilesOfNodes(int nodeCount);
+  /// Finds the patches, where nodes are at these places [m].
+  void findPatches(const std::vector<btVector3>& places);
 
   bool isGrid() const { return columns > 0; }
 };

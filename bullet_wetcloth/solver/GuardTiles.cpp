@@ -82,13 +82,18 @@ bool GuardTiles::areLookedAtAgain(int tileA, int tileB) const {
   const Tile& a = m_tiles[toSize(tileA)];
   const Tile& b = m_tiles[toSize(tileB)];
   if (m_isNew[toSize(tileA)] || m_isNew[toSize(tileB)]) return true;
-  const Cloth& cloth = m_bounds.cloths()[a.cloth];
-  if (a.cloth != b.cloth || !cloth.mesh->isGrid()) return false;
-  const GridRectangle around = GuardGrid{*cloth.mesh}.tilesAround(a.index, b.index);
+  if (a.cloth != b.cloth) return false;
+  const GuardMesh& mesh = *m_bounds.cloths()[a.cloth].mesh;
+  const auto isNew = [&](int tile) { return m_isNew[m_firstTile[a.cloth] + toSize(tile)]; };
+  if (!mesh.isGrid()) {
+    return !mesh.patches.empty() &&
+           std::any_of(mesh.tilesOfPatches[toSize(a.index)].begin(), mesh.tilesOfPatches[toSize(a.index)].end(), isNew);
+  }
+  const GridRectangle around = GuardGrid{mesh}.tilesAround(a.index, b.index);
   if (!GuardBounds::areNear(0, around)) return false;
   for (int row = around.firstRow; row <= around.lastRow; ++row) {
     for (int column = around.firstColumn; column <= around.lastColumn; ++column) {
-      if (m_isNew[m_firstTile[a.cloth] + toSize(row * cloth.mesh->tileColumns + column)]) return true;
+      if (isNew(row * mesh.tileColumns + column)) return true;
     }
   }
   return false;
@@ -145,13 +150,15 @@ void GuardTiles::lookAtNearTiles(std::size_t a, std::size_t b) {
   if (!isWanted(a, b)) return;
   if (isSelf && m_isFlat[m_tiles[a].cloth]) return;
   if (!areLookedAtAgain(static_cast<int>(a), static_cast<int>(b))) return;
-  if (isSelf && cloth.mesh->isGrid() &&
-      m_bounds.areFlat(cloth, 0, GuardGrid{*cloth.mesh}.tilesAround(m_tiles[a].index, m_tiles[b].index))) {
-    return;
-  }
+  if (isSelf && areFlat(cloth, m_tiles[a].index, m_tiles[b].index)) return;
   m_pairOfTiles[0] = static_cast<int>(a);
   m_pairOfTiles[1] = static_cast<int>(b);
   lookAtTiles(a, b);
+}
+
+bool GuardTiles::areFlat(const Cloth& cloth, int tileA, int tileB) {
+  if (!cloth.mesh->isGrid()) return m_bounds.areInAFlatPatch(cloth, tileA, tileB);
+  return m_bounds.areFlat(cloth, 0, GuardGrid{*cloth.mesh}.tilesAround(tileA, tileB));
 }
 
 // --- cells and parts ------------------------------------------------------------------------------------------------

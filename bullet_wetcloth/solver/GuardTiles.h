@@ -59,6 +59,7 @@ class GuardTiles {
   void sortTiles();
   void findPairs();
   void lookAtNearTiles(std::size_t a, std::size_t b);
+  bool areFlat(const Cloth& cloth, int tileA, int tileB);
   void lookAtTiles(std::size_t a, std::size_t b);
   void lookAtSquares(const Cloth& a, const Square& squareA, const Cloth& b, const Square& squareB);
   void lookAtCells(const Cloth& a, int cellA, const Cloth& b, int cellB);
