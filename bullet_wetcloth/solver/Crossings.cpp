@@ -11,7 +11,7 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-double volume(const CrossingPlace& a, const CrossingPlace& b, const CrossingPlace& c, const CrossingPlace& d) {
+double volume(const BodyPoint& a, const BodyPoint& b, const BodyPoint& c, const BodyPoint& d) {
   double u[3], v[3], w[3];
   for (std::size_t k = 0; k < 3; ++k) {
     u[k] = b[k] - a[k];
@@ -39,8 +39,8 @@ std::array<int, 2> besideEdge(const GuardMesh& mesh, int a, int b) {
 
 }  // namespace
 
-std::optional<CrossingPoint> crossingPoint(const CrossingPlace& p, const CrossingPlace& q, const CrossingPlace& a,
-                                           const CrossingPlace& b, const CrossingPlace& c) {
+std::optional<CrossingPoint> crossingPoint(const BodyPoint& p, const BodyPoint& q, const BodyPoint& a,
+                                           const BodyPoint& b, const BodyPoint& c) {
   const double ends[2] = {volume(p, a, b, c), volume(q, a, b, c)};
   if (!(ends[0] * ends[1] < 0)) return std::nullopt;
   const double sides[3] = {volume(p, q, b, c), volume(p, q, c, a), volume(p, q, a, b)};
@@ -51,33 +51,62 @@ std::optional<CrossingPoint> crossingPoint(const CrossingPlace& p, const Crossin
   return CrossingPoint{ends[0] / (ends[0] - ends[1]), {sides[0] / sum, sides[1] / sum, sides[2] / sum}};
 }
 
+// Of a mesh the parts of a tile follow each other.
 void Crossings::add(const ClothGuard::Cloth& cloth, int number, const btVector3& origin) {
   const int first = static_cast<int>(m_places.size());
+  const std::size_t firstEdge = m_edges.size();
+  const std::size_t firstFace = m_faces.size();
   m_first.push_back(first);
   for (int node = 0; node < cloth.nodeCount; ++node) m_places.push_back(crossingPlaceOf(cloth, node, origin));
   for (const GuardMesh::Face& face : cloth.mesh->faces) {
-    m_faces.push_back(part({first + face.node[0], first + face.node[1], first + face.node[2]}, number));
+    m_faces.push_back(part({first + face.node[0], first + face.node[1], first + face.node[2]}));
   }
   for (const GuardMesh::Edge& edge : cloth.mesh->edges) {
-    m_edges.push_back(part({first + edge.node[0], first + edge.node[1], first + edge.node[1]}, number));
+    m_edges.push_back(part({first + edge.node[0], first + edge.node[1], first + edge.node[1]}));
+  }
+  for (const GuardMesh::Tile& tile : cloth.mesh->tiles) {
+    const GuardMesh::Cell& begin = cloth.mesh->cells[toSize(tile.cell)];
+    const GuardMesh::Cell& end = cloth.mesh->cells[toSize(tile.endCell)];
+    m_tiles.push_back({number,
+                       firstEdge + toSize(begin.edge),
+                       firstEdge + toSize(end.edge),
+                       firstFace + toSize(begin.face),
+                       firstFace + toSize(end.face),
+                       {},
+                       0,
+                       0});
+    Tile& added = m_tiles.back();
+    for (std::size_t k = added.edge; k < added.endEdge; ++k) added.box.include(m_edges[k].box);
+    for (std::size_t k = added.face; k < added.endFace; ++k) added.box.include(m_faces[k].box);
+    sortFaces(added);
   }
 }
 
-Crossings::Part Crossings::part(const std::array<int, 3>& nodes, int cloth) const {
-  Part result = {nodes, cloth, {}, {}};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto range =
-        std::minmax({m_places[toSize(nodes[0])][k], m_places[toSize(nodes[1])][k], m_places[toSize(nodes[2])][k]});
-    result.low[k] = range.first;
-    result.high[k] = range.second;
+void Crossings::sortFaces(Tile& tile) {
+  const auto sideOf = [](const BodyBox& box, std::size_t axis) { return box.high[axis] - box.low[axis]; };
+  for (std::size_t axis = 1; axis < 3; ++axis) {
+    if (sideOf(tile.box, axis) > sideOf(tile.box, tile.axis)) tile.axis = axis;
   }
+  const auto face = m_faces.begin();
+  std::sort(face + static_cast<std::ptrdiff_t>(tile.face), face + static_cast<std::ptrdiff_t>(tile.endFace),
+            [&tile](const Part& a, const Part& b) {
+              const double atA = a.box.low[tile.axis];
+              const double atB = b.box.low[tile.axis];
+              return atA != atB ? atA < atB : a.node < b.node;
+            });
+  for (std::size_t k = tile.face; k < tile.endFace; ++k) {
+    tile.longest = std::max(tile.longest, sideOf(m_faces[k].box, tile.axis));
+  }
+}
+
+Crossings::Part Crossings::part(const std::array<int, 3>& nodes) const {
+  Part result = {nodes, {}};
+  for (const int node : nodes) result.box.include(m_places[toSize(node)]);
   return result;
 }
 
 bool Crossings::cross(const Part& edge, const Part& face) const {
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (edge.low[k] > face.high[k] || face.low[k] > edge.high[k]) return false;
-  }
+  if (!edge.box.overlaps(face.box)) return false;
   for (const int node : edge.node) {
     if (std::find(face.node.begin(), face.node.end(), node) != face.node.end()) return false;
   }
@@ -86,33 +115,39 @@ bool Crossings::cross(const Part& edge, const Part& face) const {
       .has_value();
 }
 
-// Faces in the order in which they begin along the first axis; the longest tells how far back one may begin.
 void Crossings::find(const std::vector<ClothGuard::Cloth>& cloths, const ClothSolver::Guard& parameters) {
   m_first.clear();
   m_places.clear();
   m_faces.clear();
   m_edges.clear();
+  m_tiles.clear();
   m_found.clear();
   for (std::size_t c = 0; c < cloths.size(); ++c) add(cloths[c], static_cast<int>(c), cloths.front().origin);
-  const auto beginsBefore = [](const Part& a, const Part& b) {
-    return a.low[0] != b.low[0] ? a.low[0] < b.low[0] : a.node < b.node;
-  };
-  std::sort(m_faces.begin(), m_faces.end(), beginsBefore);
-  double longest = 0;
-  for (const Part& face : m_faces) longest = std::max(longest, face.high[0] - face.low[0]);
-  for (const Part& edge : m_edges) {
-    Part earliest = edge;
-    earliest.low[0] -= longest;
-    earliest.node = {-1, -1, -1};
-    auto face = std::lower_bound(m_faces.begin(), m_faces.end(), earliest, beginsBefore);
-    for (; face != m_faces.end() && face->low[0] <= edge.high[0]; ++face) {
-      if (!(edge.cloth == face->cloth ? parameters.self : parameters.others)) continue;
-      if (!cross(edge, *face)) continue;
-      const int first = m_first[toSize(edge.cloth)];
+  for (const Tile& edges : m_tiles) {
+    for (const Tile& faces : m_tiles) {
+      if (!(edges.cloth == faces.cloth ? parameters.self : parameters.others)) continue;
+      if (edges.box.overlaps(faces.box)) findIn(edges, faces, cloths);
+    }
+  }
+}
+
+void Crossings::findIn(const Tile& edges, const Tile& faces, const std::vector<ClothGuard::Cloth>& cloths) {
+  const int firstNode = m_first[toSize(edges.cloth)];
+  for (std::size_t i = edges.edge; i < edges.endEdge; ++i) {
+    const Part& edge = m_edges[i];
+    if (!edge.box.overlaps(faces.box)) continue;
+    const double earliest = edge.box.low[faces.axis] - faces.longest;
+    const auto begin = m_faces.begin() + static_cast<std::ptrdiff_t>(faces.face);
+    const auto first =
+        std::lower_bound(begin, m_faces.begin() + static_cast<std::ptrdiff_t>(faces.endFace), earliest,
+                         [&faces](const Part& face, double place) { return face.box.low[faces.axis] < place; });
+    for (std::size_t k = faces.face + static_cast<std::size_t>(first - begin); k < faces.endFace; ++k) {
+      if (m_faces[k].box.low[faces.axis] > edge.box.high[faces.axis]) break;
+      if (!cross(edge, m_faces[k])) continue;
       std::array<int, 2> beside =
-          besideEdge(*cloths[toSize(edge.cloth)].mesh, edge.node[0] - first, edge.node[1] - first);
-      for (int& node : beside) node = node < 0 ? -1 : node + first;
-      m_found.push_back({{edge.node[0], edge.node[1]}, face->node, beside, {edge.cloth, face->cloth}});
+          besideEdge(*cloths[toSize(edges.cloth)].mesh, edge.node[0] - firstNode, edge.node[1] - firstNode);
+      for (int& node : beside) node = node < 0 ? -1 : node + firstNode;
+      m_found.push_back({{edge.node[0], edge.node[1]}, m_faces[k].node, beside, {edges.cloth, faces.cloth}});
     }
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/solver/BodyPose.h"
 #include "bullet_wetcloth/solver/ClothGuard.h"
 
 #include <array>
@@ -10,8 +11,6 @@
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
-
-using CrossingPlace = std::array<double, 3>;
 
 /// An edge that goes through a face, of one cloth or of two. Nodes are numbered as those of all cloths, one cloth after
 /// the other; what shares a node does not cross.
@@ -30,12 +29,12 @@ struct CrossingPoint {
 
 /// The point at which the edge pq goes through the face abc, if it does. Computed in double; what only touches may
 /// cross or not.
-std::optional<CrossingPoint> crossingPoint(const CrossingPlace& p, const CrossingPlace& q, const CrossingPlace& a,
-                                           const CrossingPlace& b, const CrossingPlace& c);
+std::optional<CrossingPoint> crossingPoint(const BodyPoint& p, const BodyPoint& q, const BodyPoint& a,
+                                           const BodyPoint& b, const BodyPoint& c);
 
 /// Where a node of a cloth is now, relative to this origin [m].
-inline CrossingPlace crossingPlaceOf(const ClothGuard::Cloth& cloth, int node, const btVector3& origin) {
-  CrossingPlace place;
+inline BodyPoint crossingPlaceOf(const ClothGuard::Cloth& cloth, int node, const btVector3& origin) {
+  BodyPoint place;
   for (int k = 0; k < 3; ++k) {
     place[static_cast<std::size_t>(k)] = static_cast<double>(cloth.nodes.position[k][cloth.slots[node]]) +
                                          static_cast<double>(cloth.origin[k] - origin[k]);
@@ -54,19 +53,29 @@ class Crossings {
   // A face, or an edge whose third corner is its second.
   struct Part {
     std::array<int, 3> node;
+    BodyBox box;
+  };
+  // A tile of a cloth's mesh. Its faces are in the order in which they begin along its longest side.
+  struct Tile {
     int cloth;
-    double low[3];
-    double high[3];
+    std::size_t edge, endEdge;
+    std::size_t face, endFace;
+    BodyBox box;
+    std::size_t axis;
+    double longest;  // face along it [m]
   };
 
   void add(const ClothGuard::Cloth& cloth, int number, const btVector3& origin);
-  Part part(const std::array<int, 3>& nodes, int cloth) const;
+  Part part(const std::array<int, 3>& nodes) const;
+  void sortFaces(Tile& tile);
   bool cross(const Part& edge, const Part& face) const;
+  void findIn(const Tile& edges, const Tile& faces, const std::vector<ClothGuard::Cloth>& cloths);
 
   std::vector<int> m_first;  // node of each cloth
-  std::vector<CrossingPlace> m_places;
+  std::vector<BodyPoint> m_places;
   std::vector<Part> m_faces;
   std::vector<Part> m_edges;
+  std::vector<Tile> m_tiles;
   std::vector<Crossing> m_found;
 };
 

@@ -19,7 +19,7 @@ constexpr btScalar kMostOfEdge = btScalar(0.1);  // of a mean edge, in a small s
 constexpr btScalar kMostGradient = 4;  // of one crossing: an edge that lies nearly in a face is not to have all the say
 
 // From one place to another.
-btVector3 wayTo(const CrossingPlace& from, const CrossingPlace& to) {
+btVector3 wayTo(const BodyPoint& from, const BodyPoint& to) {
   return btVector3(static_cast<btScalar>(to[0] - from[0]), static_cast<btScalar>(to[1] - from[1]),
                    static_cast<btScalar>(to[2] - from[2]));
 }
@@ -51,6 +51,7 @@ void Untangling::begin(const std::vector<Crossing>& crossings, const std::vector
   m_aside.resize(crossings.empty() ? 0 : toSize(count));
   m_pairs.clear();
   m_contours.find(crossings);
+  m_sums.assign(toSize(m_contours.count()), {btVector3(0, 0, 0), 0});
   for (const Crossing& crossing : crossings) m_pairs.push_back({crossing, {}, btVector3(0, 0, 0), true});
 }
 
@@ -74,11 +75,11 @@ void Untangling::aim(Pair& pair, const std::vector<ClothGuard::Cloth>& cloths) c
   const auto placeOfFace = [&](int node) {
     return crossingPlaceOf(other, node - m_first[toSize(crossing.cloth[1])], cloth.origin);
   };
-  const CrossingPlace p = placeOfEdge(crossing.edge[0]);
-  const CrossingPlace q = placeOfEdge(crossing.edge[1]);
-  const CrossingPlace a = placeOfFace(crossing.face[0]);
-  const CrossingPlace b = placeOfFace(crossing.face[1]);
-  const CrossingPlace c = placeOfFace(crossing.face[2]);
+  const BodyPoint p = placeOfEdge(crossing.edge[0]);
+  const BodyPoint q = placeOfEdge(crossing.edge[1]);
+  const BodyPoint a = placeOfFace(crossing.face[0]);
+  const BodyPoint b = placeOfFace(crossing.face[1]);
+  const BodyPoint c = placeOfFace(crossing.face[2]);
   pair.gradient.setZero();
   const std::optional<CrossingPoint> point = crossingPoint(p, q, a, b, c);
   pair.isCrossing = point.has_value();
@@ -97,12 +98,16 @@ void Untangling::aim(Pair& pair, const std::vector<ClothGuard::Cloth>& cloths) c
   if (std::isfinite(length)) pair.gradient = length > kMostGradient ? gradient * (kMostGradient / length) : gradient;
 }
 
+// A contour that is gone keeps what it was last.
 void Untangling::sumUp() {
-  m_sums.assign(toSize(m_contours.count()), {btVector3(0, 0, 0), 0});
+  m_newSums.assign(m_sums.size(), {btVector3(0, 0, 0), 0});
   for (std::size_t k = 0; k < m_pairs.size(); ++k) {
-    Sum& sum = m_sums[toSize(m_contours.contour(k))];
+    Sum& sum = m_newSums[toSize(m_contours.contour(k))];
     sum.gradient += m_contours.isOfOtherLayer(k) ? -m_pairs[k].gradient : m_pairs[k].gradient;
     sum.size += m_pairs[k].gradient.length();
+  }
+  for (std::size_t k = 0; k < m_sums.size(); ++k) {
+    if (m_newSums[k].size > 0) m_sums[k] = m_newSums[k];
   }
 }
 

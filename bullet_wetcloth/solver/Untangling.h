@@ -71,6 +71,7 @@ class Untangling {
     btScalar size;  // of all gradients
   };
   std::vector<Sum> m_sums;
+  std::vector<Sum> m_newSums;
   std::vector<int> m_first;        // node of each cloth
   std::vector<btVector3> m_aside;  // how far each node was moved so in this small step [m]
   CrossingExemptions m_exemptions;
