@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/numerics/BestLanes.h"
+#include "bullet_wetcloth/solver/CrossingExemptions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -164,10 +165,11 @@ struct Before {
 }  // namespace
 
 void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters, int smallSteps,
-                       const GuardExemptions* exemptions) {
+                       const GuardExemptions* exemptions, const CrossingExemptions* crossings) {
   m_cloths = cloths;
   m_parameters = parameters;
   m_exemptions = exemptions;
+  m_crossings = crossings;
   m_kept.resize(cloths.size());
   m_first.clear();
   m_tiles.clear();
@@ -388,6 +390,7 @@ void ClothGuard::lookAgain() {
 
 void ClothGuard::addPlanes() {
   if (m_exemptions) m_exemptions->takeFrom(m_candidates);
+  if (m_crossings) m_crossings->takeFrom(m_candidates);
   m_totals.candidates += static_cast<long long>(m_candidates.size());
   gather(m_candidates);
   m_totals.meeting = std::max(m_totals.meeting, m_pairs.look(m_nodes, m_candidates, m_contact));

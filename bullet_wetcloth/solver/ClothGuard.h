@@ -17,6 +17,8 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class CrossingExemptions;
+
 /// Keeps cloths from passing through themselves and through each other, small step by small step: see docs/guard.md.
 ///
 /// It knows that nothing has met at the end of the small step before, and where the nodes want to go. For some small
@@ -41,8 +43,9 @@ class ClothGuard {
   /// Before the first small step of a step: nodes stand where they were at its end, and pins where they come from.
   /// @param smallSteps  how often hold() is called in this step
   /// @param exemptions  of pairs, which outlive the step; or null
+  /// @param crossings   that are left alone, in the same way
   void begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters, int smallSteps,
-             const GuardExemptions* exemptions = nullptr);
+             const GuardExemptions* exemptions = nullptr, const CrossingExemptions* crossings = nullptr);
   /// After each small step.
   void hold();
   /// What the nodes of bodies have pushed since then: see GuardNodes.
@@ -87,6 +90,7 @@ class ClothGuard {
   std::vector<std::size_t> m_first;  // of each cloth's nodes among all
   ClothSolver::Guard m_parameters;
   const GuardExemptions* m_exemptions = nullptr;
+  const CrossingExemptions* m_crossings = nullptr;
   ClothSolver::GuardTotals m_totals;
   GuardTiles m_tiles;
   GuardPairs m_pairs;

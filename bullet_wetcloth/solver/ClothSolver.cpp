@@ -4,7 +4,7 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/mesh/FaceTree.h"
 #include "bullet_wetcloth/solver/ClothGuard.h"
-#include "bullet_wetcloth/solver/Crossings.h"
+#include "bullet_wetcloth/solver/Entanglements.h"
 #include "bullet_wetcloth/solver/GuardBodies.h"
 #include "bullet_wetcloth/solver/GuardContacts.h"
 #include "bullet_wetcloth/solver/PackedCloth.h"
@@ -106,8 +106,8 @@ class ClothSolver::Impl {
   }
 
   void solveGuarded(const btAlignedObjectArray<btSoftBody*>& softBodies, btScalar dt);
+  void takeGuarded(const btAlignedObjectArray<btSoftBody*>& softBodies);
   void beginGuard(int smallSteps);
-  void tellCrossings();
   void warnOfBadNode(Taken& taken) const;
   void warnOfSmallSteps(Taken& taken) const;
 
@@ -116,13 +116,13 @@ class ClothSolver::Impl {
   std::vector<std::unique_ptr<Taken>> before;  // room for those of the step before, so that no step allocates
   ClothGuard guard;
   std::vector<PackedCloth*> guarded;            // in this step
-  std::vector<ClothGuard::Cloth> guardedNodes;  // theirs, and those of rigid bodies
-  std::vector<ClothGuard::Cloth> standing;      // those that are not stepped
-  std::vector<PackedCloth*> inContact;          // all of these, those that are stepped first
+  std::vector<PackedCloth*> inContact;          // these, and those that stand
+  Entanglements::Cloths all;                    // theirs
+  std::vector<ClothGuard::Cloth> guardedNodes;  // the same, and rigid bodies
+  Entanglements entanglements;
   GuardBodies bodies;
   std::vector<GuardBodies::Cloth> amongBodies;  // those that are guarded
   long long mostInside = 0;
-  long long mostCrossing = 0;
   bool isOneLeft = false;  // to Bullet, that collides with soft bodies
   SmallStepViewers viewers;
   std::function<void(const std::string&)> logger = [](const std::string& message) { std::clog << message << '\n'; };
@@ -230,13 +230,14 @@ PackedNodes* ClothSolver::packedNodes(const btSoftBody& body) {
 ClothSolver::GuardTotals ClothSolver::guardTotals() const {
   GuardTotals totals = m_impl->guard.totals();
   totals.inside = m_impl->mostInside;
-  totals.crossing = m_impl->mostCrossing;
+  totals.crossing = m_impl->entanglements.most();
   return totals;
 }
 
 void ClothSolver::resetGuardTotals() {
   m_impl->guard.resetTotals();
-  m_impl->mostInside = m_impl->mostCrossing = 0;
+  m_impl->entanglements.resetMost();
+  m_impl->mostInside = 0;
 }
 
 void ClothSolver::setSmallStepCallback(SmallStepCallback callback) { m_impl->viewers.setCallback(std::move(callback)); }
@@ -310,60 +311,57 @@ void ClothSolver::processCollision(btSoftBody* body, btSoftBody* other) {
 
 // From where the nodes are now.
 void ClothSolver::Impl::beginGuard(int smallSteps) {
-  guardedNodes.clear();
-  for (PackedCloth* const cloth : guarded) guardedNodes.push_back(cloth->guarded());
-  guardedNodes.insert(guardedNodes.end(), standing.begin(), standing.end());
+  guardedNodes = all.nodes;
   const bool hasBodies = parameters.guard->bodies && !bodies.isEmpty();
   if (hasBodies) guardedNodes.push_back(bodies.guarded(guardedNodes.front().h));
-  guard.begin(guardedNodes, *parameters.guard, smallSteps, hasBodies ? &bodies.exemptions() : nullptr);
+  guard.begin(guardedNodes, *parameters.guard, smallSteps, hasBodies ? &bodies.exemptions() : nullptr,
+              &entanglements.exemptions());
 }
 
-// Where a cloth is new, or was cut: an author may have made it so.
-void ClothSolver::Impl::tellCrossings() {
-  std::vector<ClothGuard::Cloth> all = standing;
-  for (const GuardBodies::Cloth& cloth : amongBodies) all.push_back(cloth.guarded);
-  const long long crossings = crossingsOf(all);
-  mostCrossing = std::max(mostCrossing, crossings);
-  if (crossings == 0) return;
-  log("wetcloth: " + std::to_string(crossings) +
-      " pairs of an edge and a face of cloths cross where a cloth is new to the guard; they are left as they are");
+// Those that are stepped, and after them those that stand.
+void ClothSolver::Impl::takeGuarded(const btAlignedObjectArray<btSoftBody*>& softBodies) {
+  guarded.clear();
+  amongBodies.clear();
+  inContact.clear();
+  all.clear();
+  const auto take = [this](PackedCloth& cloth, const ClothGuard::Cloth& nodes, int number) {
+    all.nodes.push_back(nodes);
+    all.numbers.push_back(number);
+    all.isAnyPlaced = cloth.takePlaced() || nodes.isNew || all.isAnyPlaced;
+    inContact.push_back(&cloth);
+  };
+  for (int k = 0; k < softBodies.size(); ++k) {
+    Taken* const taken = find(*softBodies[k]);
+    if (!taken || !softBodies[k]->isActive() || !taken->cloth.beginSmallSteps(parameters)) continue;
+    guarded.push_back(&taken->cloth);
+    amongBodies.push_back({softBodies[k], taken->cloth.guarded()});
+    take(taken->cloth, amongBodies.back().guarded, k);
+  }
+  for (int k = 0; k < softBodies.size() && !guarded.empty(); ++k) {
+    Taken* const taken = find(*softBodies[k]);
+    if (!taken || std::find(guarded.begin(), guarded.end(), &taken->cloth) != guarded.end()) continue;
+    if (const auto still = taken->cloth.standing()) take(taken->cloth, *still, k);
+  }
 }
 
 // All cloths take each small step together, so that they can be kept apart after it.
 void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& softBodies, btScalar dt) {
-  guarded.clear();
-  amongBodies.clear();
-  standing.clear();
-  bool isAnyNew = false;
-  inContact.clear();
-  int count = 0;
-  for (int k = 0; k < softBodies.size(); ++k) {
-    Taken* const taken = find(*softBodies[k]);
-    if (!taken) continue;
-    if (!softBodies[k]->isActive() || !taken->cloth.beginSmallSteps(parameters)) {
-      if (const std::optional<ClothGuard::Cloth> still = taken->cloth.standing()) {
-        isAnyNew = isAnyNew || still->isNew;
-        standing.push_back(*still);
-        inContact.push_back(&taken->cloth);
-      }
-      continue;
-    }
-    guarded.push_back(&taken->cloth);
-    amongBodies.push_back({softBodies[k], taken->cloth.guarded()});
-    isAnyNew = isAnyNew || amongBodies.back().guarded.isNew;
-    count = std::max(count, taken->cloth.smallSteps());
-  }
+  takeGuarded(softBodies);
   if (guarded.empty()) return;
-  if (isAnyNew) tellCrossings();
+  int count = 0;
+  for (const PackedCloth* const cloth : guarded) count = std::max(count, cloth->smallSteps());
+  const auto logThat = [this](const std::string& message) { log(message); };
+  entanglements.begin(all, *parameters.guard, static_cast<double>(dt), logThat);
   const bool hasBodies = parameters.guard->bodies;
   if (hasBodies) {
     int others = 0;
-    for (const ClothGuard::Cloth& cloth : standing) others += cloth.nodeCount;
+    for (std::size_t k = guarded.size(); k < all.nodes.size(); ++k) others += all.nodes[k].nodeCount;
     bodies.begin(amongBodies, others, parameters.guard->thickness, dt);
     mostInside = std::max(mostInside, bodies.inside());
   } else {
     bodies.forget();
   }
+  const long long forced = guard.totals().forced;
   beginGuard(count);
   for (int k = 0; k < count; ++k) {
     if (hasBodies && !bodies.covers(amongBodies)) {
@@ -373,6 +371,7 @@ void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& so
     for (PackedCloth* const cloth : guarded) {
       if (k < cloth->smallSteps()) cloth->takeSmallStep(k);
     }
+    entanglements.push(all);
     if (hasBodies) bodies.go(static_cast<double>(k + 1) / count);
     guard.hold();
     if (hasBodies) bodies.recoil(guard.recoil(), static_cast<double>(k + 1) / count, dt / static_cast<btScalar>(count));
@@ -380,12 +379,11 @@ void ClothSolver::Impl::solveGuarded(const btAlignedObjectArray<btSoftBody*>& so
       if (k < cloth->smallSteps()) cloth->show(viewers, k);
     }
   }
-  inContact.insert(inContact.begin(), guarded.begin(), guarded.end());
+  if (guard.totals().forced > forced) entanglements.lookAgain(all, *parameters.guard, logThat);
   listContacts(guard, inContact, guarded.size());
   for (PackedCloth* const cloth : guarded) cloth->endSmallSteps();
   if (hasBodies) bodies.end();
 }
-
 void ClothSolver::solveConstraints(btScalar dt) {
   const bool isGuarded = m_impl->parameters.guard.has_value();
   for (int k = 0; k < m_softBodySet.size(); ++k) {

@@ -30,6 +30,9 @@ struct ClothGuardParameters {
   /// The cloths and rigid bodies, static, kinematic and dynamic ones, whose shapes are convex, triangle meshes, planes,
   /// or compounds of these: docs/guard.md says what is kept of which. A body that a cloth stops is slowed by it.
   bool bodies = false;
+  /// Cloths that cross, since they were made or put so, are drawn out of each other, slowly and as far as that can be
+  /// done; else they are left as they are.
+  bool untangle = false;
 };
 
 /// Steps cloths faster and stiffer than Bullet does, behind Bullet's own seam: the last argument of its world.
@@ -56,8 +59,9 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
     long long halts = 0;       ///< small steps in which all cloths stood still
     long long forced = 0;      ///< pairs that pins or bodies drove through each other, or might have
     long long meeting = 0;     ///< the most pairs that met at one look already, and so may pass
-    long long crossing =
-        0;                 ///< the most pairs of an edge and a face that crossed when a cloth was new; left as they are
+    /// The most pairs of an edge and a face that crossed at once: counted when a cloth is new or was put elsewhere,
+    /// when something was forced, and in each step in which they are untangled.
+    long long crossing = 0;
     long long inside = 0;  ///< the most faces that stood in rigid bodies at once, and so may pass their surfaces
   };
 

@@ -92,6 +92,13 @@ struct InBox {
   }
 };
 
+// Beyond what moving an origin may have rounded. What is nearer is nothing that cloth could be put through.
+bool isElsewhere(btScalar place, btScalar kept) {
+  constexpr btScalar kNear = btScalar(1e-5);  // [m]
+  constexpr btScalar kRoundings = 4 * std::numeric_limits<btScalar>::epsilon();
+  return !(std::fabs(place - kept) <= kNear + kRoundings * std::fabs(place));
+}
+
 }  // namespace
 
 // Each order of slots has a number of its own, whatever body it belongs to.
@@ -141,30 +148,38 @@ void LocalNodes::readNodes() {
   centre();
   m_hasForces = false;
   std::atomic<bool> hasForces{false};
+  std::atomic<bool> arePlaced{m_isNew};
   forEachStretch(m_slots.size(), [&](std::size_t begin, std::size_t end) {
-    if (readStretch(begin, end)) hasForces = true;
+    const Seen seen = readStretch(begin, end);
+    if (seen.areForced) hasForces = true;
+    if (seen.arePlaced) arePlaced = true;
   });
   m_hasForces = hasForces;
+  m_arePlaced = m_arePlaced || arePlaced;
   m_isNew = false;
 }
 
-// Whether a force acts on one of these nodes.
-bool LocalNodes::readStretch(std::size_t begin, std::size_t end) {
+LocalNodes::Seen LocalNodes::readStretch(std::size_t begin, std::size_t end) {
   btScalar anyForce = 0;
+  bool arePlaced = false;
   for (std::size_t k = begin; k < end; ++k) {
     const btSoftBody::Node& node = m_body.m_nodes[static_cast<int>(k)];
     prefetch(&node + kPrefetchedAhead, sizeof node / 2);
     const std::size_t s = toSize(m_slots[k]);
     for (int axis = 0; axis < 3; ++axis) {
       const btScalar place = node.m_x[axis];
-      if (m_isNew || place != m_origin[axis] + position[axis][s]) position[axis][s] = place - m_origin[axis];
+      const btScalar kept = m_origin[axis] + position[axis][s];
+      if (m_isNew || place != kept) {
+        position[axis][s] = place - m_origin[axis];
+        arePlaced = arePlaced || (node.m_im > 0 && isElsewhere(place, kept));
+      }
       velocity[axis][s] = node.m_v[axis];
       m_force[axis][s] = node.m_f[axis];
       anyForce += std::fabs(node.m_f[axis]);
     }
     inverseMass[s] = node.m_im;
   }
-  return anyForce != 0;
+  return {anyForce != 0, arePlaced};
 }
 
 void LocalNodes::writeVelocities() {
@@ -281,6 +296,7 @@ MovingNodes LocalNodes::moving() {
 void LocalNodes::transferState(StateArchive& archive) {
   archive.value(m_isNew, m_origin, m_badNode);
   for (Lane& axis : position) archive.array(axis);
+  if (archive.isRestoring()) setPlaced();
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -9,6 +9,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace wetcloth {
@@ -36,6 +37,10 @@ class LocalNodes : public PackedNodes {
   /// node is not finite; badNode() is its number.
   bool take();
   int badNode() const { return m_badNode; }
+  /// Whether free nodes were put elsewhere since this was asked last, by somebody else than write();
+  /// or setPlaced() says so.
+  void setPlaced() { m_arePlaced = true; }
+  bool takePlaced() { return std::exchange(m_arePlaced, false); }
   /// Writes into the body's nodes what a step has made of them; places from before the step become m_q.
   void write(const Lane (&normals)[3]);
 
@@ -65,7 +70,12 @@ class LocalNodes : public PackedNodes {
 
  private:
   void centre();
-  bool readStretch(std::size_t begin, std::size_t end);
+  // What was seen of some nodes.
+  struct Seen {
+    bool areForced;
+    bool arePlaced;
+  };
+  Seen readStretch(std::size_t begin, std::size_t end);
   void writeStretch(const Lane (&normals)[3], std::size_t begin, std::size_t end);
   void findPredictedIn(const btVector3& least, const btVector3& largest);
   btSoftBody::Node& showPrediction(int slot);
@@ -81,6 +91,7 @@ class LocalNodes : public PackedNodes {
   std::vector<int> m_shown;  // nodes whose predictions the body shows
   bool m_hasForces = false;
   bool m_isNew = true;
+  bool m_arePlaced = false;
   int m_badNode = -1;
 };
 

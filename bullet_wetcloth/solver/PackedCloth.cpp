@@ -234,8 +234,11 @@ bool PackedCloth::beginSmallSteps(const ClothSolver::Parameters& parameters) {
   m_anchors.prepare(m_body, m_nodes);
   m_contacts.prepare(m_body, m_nodes, m_count);
   m_tethers.follow(m_body, m_nodes, parameters.tethers, static_cast<btScalar>(parameters.tetherScale));
+  const bool wasGuarded = m_isGuarded;
   m_isGuarded = parameters.guard.has_value();
-  if (m_isGuarded) m_pins.spread(m_nodes, m_body.m_sst.sdt);
+  if (!m_isGuarded) return true;
+  if (!wasGuarded) m_nodes.setPlaced();
+  m_pins.spread(m_nodes, m_body.m_sst.sdt);
   return true;
 }
 
@@ -299,6 +302,7 @@ ClothGuard::Cloth PackedCloth::guarded() {
 std::optional<ClothGuard::Cloth> PackedCloth::standing() {
   followMesh();
   if (!m_nodes.take()) return std::nullopt;
+  m_isGuarded = true;
   ClothGuard::Cloth cloth = guarded();
   cloth.isStill = true;
   return cloth;

@@ -21,7 +21,7 @@ inline const KeyTable scene{
      "duration_s", "implicit", "solver", "quality", "cloths", "colliders", "water", "camera"}};
 
 inline const KeyTable solver{"solver", {"small_steps", "stiffness_n_m", "guard"}};
-inline const KeyTable guard{"guard", {"thickness_m", "self", "others", "every", "friction", "bodies"}};
+inline const KeyTable guard{"guard", {"thickness_m", "self", "others", "every", "friction", "bodies", "untangle"}};
 
 inline const KeyTable cloth{"cloth",
                             {"name", "patch", "obj", "fabric", "pins", "initial_saturation", "water_pace", "friction",

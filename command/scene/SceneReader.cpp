@@ -380,6 +380,7 @@ wetcloth::ClothSolver::Guard readGuard(JsonCursor cursor) {
   if (const auto every = cursor.find("every")) settings.every = every->integer(1, 100);
   readNumber(cursor, "friction", Range::notNegative(), settings.friction);
   if (const auto bodies = cursor.find("bodies")) settings.bodies = bodies->boolean();
+  if (const auto untangle = cursor.find("untangle")) settings.untangle = untangle->boolean();
   return settings;
 }
 

@@ -235,5 +235,14 @@ TEST(RunSolver, AGuardTellsWhatStoodInBodies) {
   EXPECT_NE(run(scene).err.find("/solver/guard/bodies"), std::string::npos);
 }
 
+TEST(RunSolver, AGuardUntanglesByChoice) {
+  Json scene = hangingScene({{"guard", Json::object()}});
+  EXPECT_FALSE(read(scene).clothSolver->guard->untangle);
+  scene["solver"]["guard"]["untangle"] = true;
+  EXPECT_TRUE(read(scene).clothSolver->guard->untangle);
+  scene["solver"]["guard"]["untangle"] = "yes";
+  EXPECT_NE(run(scene).err.find("/solver/guard/untangle"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace wetcloth_test::solver_test
