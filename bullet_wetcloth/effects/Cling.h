@@ -111,9 +111,9 @@ class WETCLOTH_EXPORT Cling : public Effect {
   bool knowsContacts(const WetCloth& cloth, const Step& step);
   void renew(WetCloth& cloth, const Step& step, bool knowsContacts);
   void take(WetCloth& cloth, const Step& step, const RigidContact& contact);
-  bool isSteady(const WetCloth& cloth, const Step& step, std::size_t node) const;
-  bool isOn(const WetCloth& cloth, const Step& step, std::size_t node);
-  void hold(WetCloth& cloth, const Step& step, std::size_t node);
+  bool isSteady(const WetCloth& cloth, const Step& step, std::size_t i) const;
+  bool isOn(const WetCloth& cloth, const Step& step, std::size_t i);
+  void hold(WetCloth& cloth, const Step& step, std::size_t i);
   static bool hasShapeOf(const Bond& bond);
   static void rememberShape(Bond& bond);
   void release(Bond& bond);

@@ -18,7 +18,7 @@ class BodyMesh {
   BodyMesh() { m_mesh.isOfBodies = true; }
   void clear();
   /// Of one body, which goes from one pose to the other.
-  void add(const ShapeFaces& faces, const BodyPose& from, const BodyPose& to);
+  void add(const ShapeFaces& shape, const BodyPose& from, const BodyPose& to);
   /// After the last one.
   void finish();
 

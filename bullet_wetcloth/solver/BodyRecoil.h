@@ -22,8 +22,8 @@ class BodyRecoil {
   void beginSmallStep(int pushes);
   /// At a place relative to the centre of mass [m].
   /// @param impulse  that the body gets [kg m/s]
-  /// @param speed    with which both have met there [m/s]
-  void add(const btVector3& arm, const btVector3& impulse, btScalar speed);
+  /// @param met      speed with which both have met there [m/s]
+  void add(const btVector3& arm, const btVector3& impulse, btScalar met);
   /// After the step.
   void apply();
 

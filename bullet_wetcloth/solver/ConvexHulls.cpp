@@ -115,11 +115,11 @@ ConvexHull::Plane planeOf(const ConvexHull& hull, std::size_t polygon, const Bod
   const std::size_t first = hull.first[polygon];
   const std::size_t count = hull.first[polygon + 1] - first;
   const auto corner = [&](std::size_t k) -> const BodyPoint& {
-    return hull.corners[toSize(hull.cornerOfPolygon[first + k % count])];
+    return hull.corners[toSize(hull.cornerOfPolygon[first + k])];
   };
   for (std::size_t k = 0; k < count; ++k) {
     const BodyPoint& a = corner(k);
-    const BodyPoint& b = corner(k + 1);
+    const BodyPoint& b = corner(k + 1 < count ? k + 1 : 0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t u = (axis + 1) % 3;
       const std::size_t v = (axis + 2) % 3;

@@ -184,9 +184,9 @@ GuardBounds::Square GuardBounds::squareOf(const Cloth& cloth, const GridRectangl
   btScalar low[3][kNumbersOfWay];
   btScalar high[3][kNumbersOfWay];
   const int columns = cloth.mesh->columns;
-  runOnBestLanes(Surround{m_nodes->expected.data() + cloth.firstNode + nodes.firstRow * columns + nodes.firstColumn,
-                          nodes.lastRow - nodes.firstRow + 1, nodes.lastColumn - nodes.firstColumn + 1, columns, low,
-                          high});
+  const int first = cloth.firstNode + nodes.firstRow * columns + nodes.firstColumn;
+  runOnBestLanes(Surround{&m_nodes->expected[toSize(first)], nodes.lastRow - nodes.firstRow + 1,
+                          nodes.lastColumn - nodes.firstColumn + 1, columns, low, high});
   const btScalar slack = high[0][3];
   return {boxAround(low[0], high[0], slack + m_near / 2),
           {boxAround(low[1], high[1], 2 * slack), boxAround(low[2], high[2], 2 * slack)}};

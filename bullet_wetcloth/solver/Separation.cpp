@@ -158,7 +158,7 @@ void turnApart(const double (&nodes)[4][3], int first, Separation& separation) {
     const double share = (separation.distance - gap) / length2;
     for (int k = 0; k < 3; ++k) separation.normal[k] += share * way[k];
     const double length = std::sqrt(dot(separation.normal, separation.normal));
-    for (int k = 0; k < 3; ++k) separation.normal[k] /= length;
+    for (double& x : separation.normal) x /= length;
   }
 }
 

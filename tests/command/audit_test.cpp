@@ -30,7 +30,7 @@ std::string refusal(const Json& scene) {
 TEST(Audit, CountsWhatPassesAndChangesNothing) {
   Json scene = wrungSheet();
   const Json audited = runScene(scene);
-  const Json audit = audited.at("audit");
+  const Json& audit = audited.at("audit");
   EXPECT_GT(audit.at("edge_edge"), 0);
   EXPECT_NEAR(audit.at("per_second").get<double>(),
               audit.at("vertex_face").get<double>() + audit.at("edge_edge").get<double>(), 0.1);

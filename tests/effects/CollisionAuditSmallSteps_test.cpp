@@ -232,7 +232,7 @@ TEST(CollisionAuditSmallSteps, GuardedNothingPasses) {
 // A cloth that an application carries after another one, which is as fast and 3 cm ahead. It is put 10 cm ahead between
 // two steps, beyond the other one, and goes there in the small steps of the next.
 TEST(CollisionAuditSmallSteps, PinsThatAreMovedBetweenStepsPassOnlyOnTheirWay) {
-  const auto square = [](double height, int nodes, double side, std::vector<wetcloth::ClothPatch::Edge> pinned) {
+  const auto square = [](double height, int nodes, double side, const std::vector<wetcloth::ClothPatch::Edge>& pinned) {
     return [=](btSoftBodyWorldInfo& info) {
       wetcloth::ClothPatch patch = levelPatch(nodes, side);
       patch.origin.setY(btScalar(height));
