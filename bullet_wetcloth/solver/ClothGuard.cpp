@@ -166,6 +166,7 @@ struct Before {
 
 void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guard& parameters, int smallSteps,
                        const GuardExemptions* exemptions, const CrossingExemptions* crossings) {
+  beginStops(cloths);
   m_cloths = cloths;
   m_parameters = parameters;
   m_exemptions = exemptions;
@@ -216,6 +217,17 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
   forgetAside();
 }
 
+// What is begun again in the middle of a step goes on with it.
+void ClothGuard::beginStops(const std::vector<Cloth>& cloths) {
+  std::size_t count = 0;
+  bool areSame = true;
+  for (std::size_t c = 0; c < cloths.size() && !cloths[c].mesh->isOfBodies; ++c) {
+    count += toSize(cloths[c].nodeCount);
+    areSame = areSame && c < m_cloths.size() && m_cloths[c].mesh == cloths[c].mesh && !cloths[c].isNew;
+  }
+  if (!areSame || m_taken >= m_smallSteps) m_stops.begin(count, areSame);
+}
+
 void ClothGuard::takeWetness() {
   m_nodes.friction.clear();
   m_pairs.cling().begin(m_nodes.to.size());
@@ -262,6 +274,7 @@ void ClothGuard::hold() {
   }
   m_slackFactor = 1;
   isHeld ? keepAside() : stopAll();
+  m_stops.endSmallStep(m_cloths.front().h, m_nodes, m_cloths.front().origin);
   keep();
   ++m_taken;
 }
@@ -273,6 +286,7 @@ void ClothGuard::enforce() {
   const GuardPairs::Outcome outcome = m_pairs.enforce(m_nodes);
   scatter();
   m_totals.stopped += outcome.stopped;
+  m_stops.add(m_pairs.slowed());
   m_totals.forced += outcome.forced;
 }
 
@@ -308,6 +322,7 @@ void ClothGuard::stopAll() {
   }
   look();
   gather();
+  m_stops.addAll(m_nodes);
   if (m_pairs.settle(m_nodes)) return;
   m_totals.forced += m_pairs.release(m_nodes);
   m_pairs.settle(m_nodes);

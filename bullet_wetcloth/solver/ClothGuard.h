@@ -8,6 +8,7 @@
 #include "bullet_wetcloth/solver/GuardExemptions.h"
 #include "bullet_wetcloth/solver/GuardMesh.h"
 #include "bullet_wetcloth/solver/GuardPairs.h"
+#include "bullet_wetcloth/solver/GuardStops.h"
 #include "bullet_wetcloth/solver/GuardTiles.h"
 #include "bullet_wetcloth/solver/SmallStep.h"
 
@@ -64,9 +65,14 @@ class ClothGuard {
   }
 
   const ClothSolver::GuardTotals& totals() const { return m_totals; }
-  void resetTotals() { m_totals = {}; }
+  void resetTotals() {
+    m_totals = {};
+    m_stops.reset();
+  }
+  const GuardStops& stops() const { return m_stops; }
 
  private:
+  void beginStops(const std::vector<Cloth>& cloths);
   void keep();
   bool isWhereExpected() const;
   void look();
@@ -92,6 +98,7 @@ class ClothGuard {
   const GuardExemptions* m_exemptions = nullptr;
   const CrossingExemptions* m_crossings = nullptr;
   ClothSolver::GuardTotals m_totals;
+  GuardStops m_stops;
   GuardTiles m_tiles;
   GuardPairs m_pairs;
   GuardPairs::Contact m_contact = {};

@@ -229,6 +229,9 @@ PackedNodes* ClothSolver::packedNodes(const btSoftBody& body) {
 
 ClothSolver::GuardTotals ClothSolver::guardTotals() const {
   GuardTotals totals = m_impl->guard.totals();
+  totals.longestStop = m_impl->guard.stops().longest();
+  totals.mostStopped = m_impl->guard.stops().most();
+  totals.placeOfMost = m_impl->guard.stops().placeOfMost();
   totals.inside = m_impl->mostInside;
   totals.crossing = m_impl->entanglements.most();
   return totals;
@@ -238,6 +241,19 @@ void ClothSolver::resetGuardTotals() {
   m_impl->guard.resetTotals();
   m_impl->entanglements.resetMost();
   m_impl->mostInside = 0;
+}
+
+std::vector<int> ClothSolver::stoppedNodes(const btSoftBody& body) const {
+  std::vector<int> stopped;
+  const Impl::Taken* const taken = m_impl->find(body);
+  const auto& cloths = m_impl->inContact;
+  const auto found = taken ? std::find(cloths.begin(), cloths.end(), &taken->cloth) : cloths.end();
+  if (found == cloths.end() || !m_impl->parameters.guard) return stopped;
+  const std::size_t first = m_impl->guard.firstNodes()[static_cast<std::size_t>(found - cloths.begin())];
+  for (int node = 0; node < body.m_nodes.size(); ++node) {
+    if (m_impl->guard.stops().wasStopped(first + static_cast<std::size_t>(node))) stopped.push_back(node);
+  }
+  return stopped;
 }
 
 void ClothSolver::setSmallStepCallback(SmallStepCallback callback) { m_impl->viewers.setCallback(std::move(callback)); }

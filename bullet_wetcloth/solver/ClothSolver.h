@@ -52,13 +52,16 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   using Guard = ClothGuardParameters;
   /// What the guard has done since the start, or since resetGuardTotals().
   struct GuardTotals {
-    long long looks = 0;       ///< small steps in which it looked for what may meet
-    long long candidates = 0;  ///< pairs that it found there
-    long long pairs = 0;       ///< of these, what it held apart until the next look
-    long long stopped = 0;     ///< nodes that were slowed because nothing else kept them apart, each small step counts
-    long long halts = 0;       ///< small steps in which all cloths stood still
-    long long forced = 0;      ///< pairs that pins or bodies drove through each other, or might have
-    long long meeting = 0;     ///< the most pairs that met at one look already, and so may pass
+    long long looks = 0;        ///< small steps in which it looked for what may meet
+    long long candidates = 0;   ///< pairs that it found there
+    long long pairs = 0;        ///< of these, what it held apart until the next look
+    long long stopped = 0;      ///< nodes that were slowed because nothing else kept them apart, each small step counts
+    double longestStop = 0;     ///< the longest time for which a node was slowed in each small step [s]
+    long long mostStopped = 0;  ///< the most nodes that were slowed in one small step
+    btVector3 placeOfMost = btVector3(0, 0, 0);  ///< the mean of their places there [m]
+    long long halts = 0;                         ///< small steps in which all cloths stood still
+    long long forced = 0;                        ///< pairs that pins or bodies drove through each other, or might have
+    long long meeting = 0;                       ///< the most pairs that met at one look already, and so may pass
     /// The most pairs of an edge and a face that crossed at once: counted when a cloth is new or was put elsewhere,
     /// when something was forced, and in each step in which they are untangled.
     long long crossing = 0;
@@ -133,6 +136,8 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   GuardTotals guardTotals() const;
   /// Counts from here on.
   void resetGuardTotals();
+  /// The nodes of a body that the guard slowed or stopped in the last step, ascending; none of one that is not taken.
+  std::vector<int> stoppedNodes(const btSoftBody& body) const;
 
   /// Scales the stiffness of each link of a body that is taken, in the order of btSoftBody::m_links, without touching
   /// its material: factors > 0, or none at all. `revision` tells this call's factors from another's: with that of the

@@ -29,8 +29,8 @@ class GuardGroups {
   void limit(const GuardNodes& nodes, const GuardPlanes& planes, std::size_t plane, double share);
   /// Moves the nodes. @param eachByItself  what a body touches goes with that place, in place of the mean of all
   void apply(GuardNodes& nodes, bool eachByItself);
-  /// How many nodes are in groups.
-  std::size_t size() const { return m_members.size(); }
+  /// The nodes that are in groups.
+  const std::vector<int>& members() const { return m_members; }
 
  private:
   struct Group {

@@ -158,11 +158,11 @@ GuardPairs::Outcome GuardPairs::enforce(GuardNodes& nodes) {
   m_groups.clear(nodes.to.size());
   for (int k = 0; k < kSlowings; ++k) {
     if (!slow(nodes, k)) {
-      outcome.stopped = static_cast<long long>(m_groups.size());
+      outcome.stopped = static_cast<long long>(m_groups.members().size());
       return outcome;
     }
   }
-  outcome.stopped = static_cast<long long>(m_groups.size());
+  outcome.stopped = static_cast<long long>(m_groups.members().size());
   outcome.forced = release(nodes);
   return outcome;
 }

@@ -54,6 +54,8 @@ class GuardPairs {
   void part(GuardNodes& nodes);
   /// Moves the nodes' places at the end of a small step so that no part leaves its side.
   Outcome enforce(GuardNodes& nodes);
+  /// The nodes that the last enforce() has slowed.
+  const std::vector<int>& slowed() const { return m_groups.members(); }
   /// Whether all parts are on their sides, where enforce() left the nodes, or where they are after a look. If they are,
   /// the small step is over for the planes.
   bool settle(const GuardNodes& nodes);

@@ -134,6 +134,12 @@ nlohmann::ordered_json RunReport::json() const {
                      {"halts", m_guard.halts},
                      {"meeting", m_guard.meeting},
                      {"crossing", m_guard.crossing}};
+    if (m_guard.stopped > 0) {
+      const btVector3& place = m_guard.placeOfMost;
+      json["guard"]["longest_stop_s"] = m_guard.longestStop;
+      json["guard"]["most_stopped"] = {{"nodes", m_guard.mostStopped},
+                                       {"position_m", {place.x(), place.y(), place.z()}}};
+    }
     if (m_scene.clothSolver->guard->bodies) json["guard"]["inside"] = m_guard.inside;
   }
   json["centre_of_mass"] = {m_moment[0] / m_mass, m_moment[1] / m_mass, m_moment[2] / m_mass};
@@ -170,6 +176,15 @@ std::string RunReport::steppingLine() const {
   return "measured error " + line + "\n";
 }
 
+std::string RunReport::stopsLine() const {
+  if (m_guard.stopped == 0) return "";
+  char text[160];
+  const btVector3& place = m_guard.placeOfMost;
+  std::snprintf(text, sizeof text, "               at most %lld at once, near (%.2f, %.2f, %.2f) m; one for %.2g s\n",
+                m_guard.mostStopped, double(place.x()), double(place.y()), double(place.z()), m_guard.longestStop);
+  return text;
+}
+
 std::string RunReport::solverLine() const {
   if (!m_scene.clothSolver) return "";
   std::string line =
@@ -177,7 +192,7 @@ std::string RunReport::solverLine() const {
   if (hasGuard()) {
     line += "guard          " + std::to_string(m_guard.forced) + " pairs forced through each other, " +
             std::to_string(m_guard.stopped) + " nodes slowed, " + std::to_string(m_guard.halts) +
-            " small steps in which all stood still\n";
+            " small steps in which all stood still\n" + stopsLine();
   }
   for (const auto& [cloth, reason] : m_solverReasons) {
     line.append("               Bullet's own steps ").append(cloth).append(": ").append(reason).append("\n");

@@ -42,6 +42,7 @@ class RunReport {
   std::string auditLine() const;
   std::string steppingLine() const;
   std::string solverLine() const;
+  std::string stopsLine() const;
   std::string springsLine() const;
 
   const Scene& m_scene;
