@@ -41,7 +41,8 @@ class Display:
             self.name = ":" + stream.readline().strip()
 
     def environment(self):
-        return dict(os.environ, DISPLAY=self.name, LIBGL_ALWAYS_SOFTWARE="1")
+        # A window draws as often as it can: one thread of it is enough beside other tests.
+        return dict(os.environ, DISPLAY=self.name, LIBGL_ALWAYS_SOFTWARE="1", LP_NUM_THREADS="1")
 
     def close(self):
         self.server.terminate()
