@@ -23,6 +23,13 @@ function(wetcloth_compile_options target)
   # Nobody reads errno or the floating-point flags here; without this no loop with a root in it is vectorised. It
   # changes no result.
   target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math)
+  # Without optimization GCC makes a function of each std::move() and std::forward(), thousands of them, where it is not
+  # told otherwise.
+  target_compile_options(
+    ${target}
+    PRIVATE
+      $<$<AND:$<CONFIG:Debug>,$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,12>>:-ffold-simple-inlines>
+  )
   target_compile_options(
     ${target}
     PRIVATE -Wall

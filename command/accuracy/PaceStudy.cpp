@@ -18,14 +18,13 @@ namespace {
 using wetcloth::Fabric;
 using wetcloth::WaterPace;
 
-constexpr int soakingSide = 25;
-
 /// What soaks, and how it moves.
 struct Soaking {
   const char* name;
   Fabric fabric;
   bool isHung;      ///< by two corners, for six seconds; else it falls flat in still air for two
   double duration;  ///< [s]
+  int side = 25;    ///< nodes along an edge
 };
 
 const std::vector<Soaking>& soakings() {
@@ -36,12 +35,20 @@ const std::vector<Soaking>& soakings() {
   return all;
 }
 
+std::vector<Soaking> soakingsFor(const Effort& effort) {
+  std::vector<Soaking> chosen = soakings();
+  for (Soaking& soaking : chosen) {
+    if (effort.isQuick) soaking.side = 13;
+  }
+  return chosen;
+}
+
 /// Height of the nodes' centre after each step [m].
 using Path = std::vector<double>;
 
 Path pathOf(const Soaking& soaking, const WaterPace& pace, double dt, double* seconds) {
   Specimen::Settings settings;
-  settings.patch = levelSquare(1, soakingSide, soaking.fabric.arealDensity);
+  settings.patch = levelSquare(1, soaking.side, soaking.fabric.arealDensity);
   using Corner = wetcloth::ClothPatch::Corner;
   if (soaking.isHung) settings.patch.pinnedCorners = {Corner::bottomLeft, Corner::bottomRight};
   settings.fabric = soaking.fabric;
@@ -110,7 +117,7 @@ void addPoint(Plan& plan, const Soaking& soaking, const WaterPace& pace, double 
   setting.method = soaking.name;
   setting.label = std::move(label);
   setting.knob = knob;
-  setting.nodes = soakingSide * soakingSide;
+  setting.nodes = soaking.side * soaking.side;
   setting.steps = std::round(soaking.duration / dt);
   setting.simulatedSeconds = soaking.duration;
   setting.run = [soaking, pace, dt, exact] { return strayBy(soaking, pace, dt, exact->heights()); };
@@ -169,7 +176,7 @@ std::vector<Study> studyRate(const Effort& effort, const TellProgress& tell) {
   Plan plan = planOf("water_rate", "Soaking cloth whose water moves in every n-th substep of 1/60 s", "n");
   const std::vector<int> every =
       effort.isQuick ? std::vector<int>{1, 5, 25} : std::vector<int>{1, 2, 3, 4, 5, 7, 9, 15, 25};
-  for (const Soaking& soaking : soakings()) {
+  for (const Soaking& soaking : soakingsFor(effort)) {
     const auto exact = std::make_shared<ExactPath>(soaking, dt);
     for (const int n : every) {
       WaterPace pace = WaterPace::exact();
@@ -190,7 +197,7 @@ std::vector<Study> studyTolerance(const Effort& effort, const TellProgress& tell
       effort.isQuick ? std::vector<std::pair<double, const char*>>{{1e-3, "0.1 %"}, {1e-2, "1 %"}}
                      : std::vector<std::pair<double, const char*>>{{3e-4, "0.03 %"}, {1e-3, "0.1 %"}, {2e-3, "0.2 %"},
                                                                    {5e-3, "0.5 %"},  {1e-2, "1 %"},   {3e-2, "3 %"}};
-  for (const Soaking& soaking : soakings()) {
+  for (const Soaking& soaking : soakingsFor(effort)) {
     const auto exact = std::make_shared<ExactPath>(soaking, dt);
     for (const auto& [tolerance, label] : tolerances) {
       WaterPace pace = WaterPace::exact();

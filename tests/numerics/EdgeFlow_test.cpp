@@ -100,21 +100,21 @@ void carry(const std::vector<WeightedEdge>& edges, const Values& fluxes, std::ve
 }
 
 // (1 x 3 + 0.5 x 2) / 1.5.
-TEST(MomentumFlow, WaterTakesTheVelocityOfTheNodeItLeaves) {
+TEST(MomentumFlowAlongEdges, WaterTakesTheVelocityOfTheNodeItLeaves) {
   std::vector<MomentumFlow::Node> nodes = {moving(2, 1), moving(3, 1)};
   carry(chain(2), {0.5}, nodes);
   EXPECT_DOUBLE_EQ(nodes[0].velocity[0], 2);
   EXPECT_DOUBLE_EQ(nodes[1].velocity[0], 4 / 1.5);
 }
 
-TEST(MomentumFlow, EvenMotionStaysExactlyAsItIs) {
+TEST(MomentumFlowAlongEdges, EvenMotionStaysExactlyAsItIs) {
   std::vector<MomentumFlow::Node> nodes(20, {{0.1, -0.7, 1e-3}, 0.3, false});
   carry(chain(20), Values(19, 1e3), nodes);
   for (const auto& node : nodes) EXPECT_EQ(node.velocity, (std::array<double, 3>{0.1, -0.7, 1e-3}));
 }
 
 // A thousand times a node's mass goes through it: it ends with the velocity of what comes in.
-TEST(MomentumFlow, IsStableHoweverMuchFlowsThrough) {
+TEST(MomentumFlowAlongEdges, IsStableHoweverMuchFlowsThrough) {
   std::vector<MomentumFlow::Node> nodes = {moving(1, 1e4), moving(0, 1), moving(0, 1), moving(0, 1)};
   carry(chain(4), Values(3, 1000), nodes);
   EXPECT_NEAR(nodes[1].velocity[0], 1000 / 1001.0, 1e-12);
@@ -122,7 +122,7 @@ TEST(MomentumFlow, IsStableHoweverMuchFlowsThrough) {
 }
 
 // Momentum, with the masses before and after; velocities stay among those that there were.
-TEST(MomentumFlow, ConservesMomentumForAnyFluxes) {
+TEST(MomentumFlowAlongEdges, ConservesMomentumForAnyFluxes) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> value(-1, 1);
   const int count = 25;
@@ -159,7 +159,7 @@ TEST(MomentumFlow, ConservesMomentumForAnyFluxes) {
   }
 }
 
-TEST(MomentumFlow, AFixedNodeIsAWall) {
+TEST(MomentumFlowAlongEdges, AFixedNodeIsAWall) {
   std::vector<MomentumFlow::Node> nodes = {moving(1, 1), {{0, 0, 0}, 1, true}, moving(1, 1)};
   carry(chain(3), {0.5, 1}, nodes);
   EXPECT_EQ(nodes[1].velocity[0], 0);
@@ -167,7 +167,7 @@ TEST(MomentumFlow, AFixedNodeIsAWall) {
   EXPECT_DOUBLE_EQ(nodes[2].velocity[0], 0.5);
 }
 
-TEST(MomentumFlow, WaterThatGoesInACircleStirs) {
+TEST(MomentumFlowAlongEdges, WaterThatGoesInACircleStirs) {
   std::vector<MomentumFlow::Node> nodes = {moving(3, 1), moving(0, 1), moving(0, 1)};
   carry({{0, 1, 1}, {0, 2, 1}, {1, 2, 1}}, {7, -7, 7}, nodes);
   for (const auto& node : nodes) EXPECT_NEAR(node.velocity[0], 1, 1e-15);

@@ -38,7 +38,7 @@ Wide equation8(const Query<double>& query, Wide t) {
   return (a[1] * b[2] - a[2] * b[1]) * c[0] + (a[2] * b[0] - a[0] * b[2]) * c[1] + (a[0] * b[1] - a[1] * b[0]) * c[2];
 }
 
-TEST(Paper, S8_TheCubicIsThatOfEquation8) {
+TEST(PaperCubic, S8_TheCubicIsThatOfEquation8) {
   std::mt19937 random(8);
   const auto coordinate = [&] { return double(random()) / 4294967296.0 - 0.5; };
   for (int i = 0; i < 200; ++i) {
@@ -55,7 +55,7 @@ TEST(Paper, S8_TheCubicIsThatOfEquation8) {
 }
 
 // A node that falls with 2 m/s onto a triangle that rises with 1 m/s, 0.3 m apart: they meet after 0.1 s.
-TEST(Paper, S8_TheRootIsTheTimeOfContact) {
+TEST(PaperCubic, S8_TheRootIsTheTimeOfContact) {
   constexpr double step = 0.125;  // [s]
   const Query<double> query = {{{0.1, 0.3, 0.1}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}},
                                {{0.1, 0.3 - 2 * step, 0.1}, {0, step, 0}, {1, step, 0}, {0, step, 1}}};

@@ -34,7 +34,7 @@ double length(const btSoftBody& body, int link) {
 }
 
 // III.A: mechanical (i,j)-(i+1,j), (i,j)-(i,j+1); shear on both diagonals; flexion (i,j)-(i+2,j), (i,j)-(i,j+2).
-TEST(Paper, S1_PatchOf32By32Has5826Springs) {
+TEST(PaperSprings, S1_PatchOf32By32Has5826Springs) {
   ClothScene scene(WorldKind::softRigid, kEarthGravity, paperPatch(), Fabric::tableII());
   const btSoftBody& body = scene.body();
   EXPECT_EQ(body.m_links.size(), 5826);
@@ -50,7 +50,7 @@ TEST(Paper, S1_PatchOf32By32Has5826Springs) {
 }
 
 // IV.C, Eq. 5: F = K U, with K and l0 for each spring by itself (Eq. 6).
-TEST(Paper, S2_EachSpringHasItsOwnStiffnessAndRestLength) {
+TEST(PaperSprings, S2_EachSpringHasItsOwnStiffnessAndRestLength) {
   EXPECT_NEAR(wetcloth::hookeForce(btVector3(0, 0, 0), btVector3(0, btScalar(-1.5), 0), 1, 8).y(), -4, 1e-5);
 
   ClothScene scene(WorldKind::softRigid, kEarthGravity, hangingRope(3, 0.2, 0.01));
@@ -66,7 +66,7 @@ TEST(Paper, S2_EachSpringHasItsOwnStiffnessAndRestLength) {
 }
 
 // IV.D, Eq. 7: F = M g with the wet mass; IV.B, Eq. 4: a = F / M. A node of 0.01 g and of 0.84 g on one spring.
-TEST(Paper, S3_GravityPullsWithTheWetMass) {
+TEST(PaperSprings, S3_GravityPullsWithTheWetMass) {
   for (WorldKind world : kAllWorlds) {
     const auto weight = [&](double saturation) {
       ClothScene scene(world, kEarthGravity, hangingRope(1, 0.1, 0.01 * kGram), Fabric::tableII());
@@ -92,7 +92,7 @@ TEST(Paper, S3_GravityPullsWithTheWetMass) {
 
 // IV.G, Fig. 15: the springs of the saturated cloth stretch more under the new masses: 84 times the mass, 84 times the
 // stretch. Bullet's own links in the position-based worlds do not; HookeSprings does, in every world.
-TEST(Paper, S12_SaturatedSpringsStretch84TimesAsMuch) {
+TEST(PaperSprings, S12_SaturatedSpringsStretch84TimesAsMuch) {
   for (WorldKind world : kAllWorlds) {
     const auto stretch = [&](double saturation) {
       const ClothPatch patch = hangingPaperPatch(12);

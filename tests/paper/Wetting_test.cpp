@@ -18,7 +18,7 @@ using wetcloth::Hook;
 
 // III.B: m += dt dm/dt (Eq. 1) with dQ/dt = (alpha / theta) exp(-t / theta) (Eq. 3) makes Q = alpha (1 - exp(-t/theta))
 // (Eq. 2). Written in w, Eq. 3 is dw/dt = (C - w) / theta, and Eq. 1 is its forward Euler.
-TEST(Paper, S4_ForwardEulerOfEquation1FollowsEquation2) {
+TEST(PaperWetting, S4_ForwardEulerOfEquation1FollowsEquation2) {
   Absorption::Parameters parameters;
   parameters.law = Absorption::Law::forwardEuler;
   parameters.conservesMomentum = false;
@@ -41,7 +41,7 @@ TEST(Paper, S4_ForwardEulerOfEquation1FollowsEquation2) {
 }
 
 // IV.G, Table I, its two rows unswapped.
-TEST(Paper, S5_ThreeFabricsTakeUpTableI) {
+TEST(PaperWetting, S5_ThreeFabricsTakeUpTableI) {
   struct Row {
     Fabric fabric;
     double alpha, theta, afterTenSeconds;
@@ -62,7 +62,7 @@ TEST(Paper, S5_ThreeFabricsTakeUpTableI) {
 }
 
 // IV.G, Table II: from 0.01 g in ten steps of 0.083 g to 0.84 g; a saturated node takes no more.
-TEST(Paper, S6_TenStepsFrom001To084Gram) {
+TEST(PaperWetting, S6_TenStepsFrom001To084Gram) {
   const double afterWetting[] = {0.093, 0.176, 0.259, 0.342, 0.425, 0.508, 0.591, 0.674, 0.757, 0.84};
   for (WorldKind world : kAllWorlds) {
     const wetcloth::ClothPatch patch = paperPatch(8);
@@ -81,7 +81,7 @@ TEST(Paper, S6_TenStepsFrom001To084Gram) {
 }
 
 // IV.H, Fig. 16: four shown stages up to the darkest at saturation, constant after.
-TEST(Paper, S9_DarkensInFourStagesAndThenNoMore) {
+TEST(PaperWetting, S9_DarkensInFourStagesAndThenNoMore) {
   const wetcloth::ClothPatch patch = paperPatch(8);
   ClothScene scene(WorldKind::softRigid, kEarthGravity, patch, Fabric::tableII());
   scene.cloth().add<Absorption>(Absorption::Parameters::paper());

@@ -47,7 +47,7 @@ double deflection(WorldKind world, double wind) {
 }
 
 // III.B, Fig. 6: n (n . wind) for each triangle, added to all three corners; IV.E, Fig. 14: winds 0.5, 1.0 and 1.5.
-TEST(Paper, S7_WindOf050And100And150PushesMoreEachTime) {
+TEST(PaperWindAndFall, S7_WindOf050And100And150PushesMoreEachTime) {
   for (double wind : {0.5, 1.0, 1.5}) {
     const ClothPatch patch = hangingPaperPatch(12);
     ClothScene scene(WorldKind::softRigid, btVector3(0, 0, 0), patch, Fabric::tableII(), wetcloth::Hook::manual);
@@ -71,7 +71,7 @@ TEST(Paper, S7_WindOf050And100And150PushesMoreEachTime) {
 
 // IV.F: the cloth's collisions. Bullet answers them, and the wet cloth must not disturb that: it comes to rest on the
 // ground and on a ball, dry and saturated, and no node goes through.
-TEST(Paper, S8_FallingClothComesToRestOnWhatIsBelow) {
+TEST(PaperWindAndFall, S8_FallingClothComesToRestOnWhatIsBelow) {
   for (double saturation : {0.0, 1.0}) {
     ClothScene scene(WorldKind::softRigid, kEarthGravity, paperPatch(16), Fabric::tableII());
     btStaticPlaneShape plane(btVector3(0, 1, 0), btScalar(-0.5));
@@ -110,7 +110,7 @@ TEST(Paper, S8_FallingClothComesToRestOnWhatIsBelow) {
 
 // IV.I, Figs. 17, 18, 20: the frame rate of the dry cloth and at the four wetting values. `wetcloth fall` prints it;
 // here it is recorded, since how fast a machine is is no property of the library, and the masses are checked.
-TEST(Paper, S10_FrameRatesAreTakenDryAndAtTheFourWettingValues) {
+TEST(PaperWindAndFall, S10_FrameRatesAreTakenDryAndAtTheFourWettingValues) {
   const ClothPatch patch = paperPatch();
   for (double grams : {0.01, 0.093, 0.342, 0.591, 0.84}) {
     ClothScene scene(WorldKind::softRigid, kEarthGravity, patch, Fabric::tableII());
@@ -153,7 +153,7 @@ double fallTime(WorldKind world, const ClothPatch& level, const Fabric& fabric, 
 
 // IV.I, Fig. 19: dry 4 s, saturated 2 s. With drag linear in speed, m/c = 0.585 s dry, 84 times that saturated, and
 // 19.62 m: H = g tau (t - tau (1 - exp(-t / tau))).
-TEST(Paper, S11_DryFallTakesFourSecondsWetTwo) {
+TEST(PaperWindAndFall, S11_DryFallTakesFourSecondsWetTwo) {
   const auto height = [](double t, double tau) { return kGravity * tau * (t + tau * std::expm1(-t / tau)); };
   ASSERT_NEAR(height(4.00, 0.585), 19.62, 0.03);
   ASSERT_NEAR(height(2.01, 84 * 0.585), 19.62, 0.10);
@@ -177,7 +177,7 @@ TEST(Paper, S11_DryFallTakesFourSecondsWetTwo) {
 }
 
 // Where the paper's claim has no air in it, it does not hold: Bullet as it is lets wet and dry fall alike.
-TEST(Paper, S11_InAVacuumWetAndDryFallAlike) {
+TEST(PaperWindAndFall, S11_InAVacuumWetAndDryFallAlike) {
   for (WorldKind world : kAllWorlds) {
     for (double massRatio : {1.0, 84.0}) {
       EXPECT_NEAR(fallTime(world, paperPatch(16), Fabric::tableII(), nullptr, massRatio, 19.62), 2, kSubstep) << world;
@@ -186,7 +186,7 @@ TEST(Paper, S11_InAVacuumWetAndDryFallAlike) {
 }
 
 // The honest numbers: quadratic drag, C_d 1.2, air of 1.225 kg/m^3, 150 g/m^2, 5.5 m.
-TEST(Paper, S11_InPhysicalModeSaturatedCottonDoesNotHalveTheTime) {
+TEST(PaperWindAndFall, S11_InPhysicalModeSaturatedCottonDoesNotHalveTheTime) {
   Wind::Parameters air;
   ASSERT_EQ(air.airDensity, 1.225);
   ASSERT_EQ(air.dragCoefficient, 1.2);

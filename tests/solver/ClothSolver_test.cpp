@@ -109,18 +109,6 @@ TEST(ClothSolver, AHangingRopeStretchesAsItsStiffnessSaysDryAndWet) {
   }
 }
 
-TEST(ClothSolver, TellsHowManySmallStepsAStiffClothNeeds) {
-  const double mass = 0.002;
-  const double stiffness = 5000;
-  SolverScene scene(WorldKind::softRigid, kEarthGravity, smallSteps(4, stiffness));
-  btSoftBody& rope = scene.add(hangingRope(5, 0.1, mass));
-  scene.step(2);
-  const int needed = scene.solver().smallStepsFor(rope);
-  EXPECT_EQ(needed, int(std::ceil(std::sqrt(stiffness / mass) / 60)));  // h^2 = m / k
-  ASSERT_EQ(scene.messages().size(), 1u);
-  EXPECT_NE(scene.messages().front().find(std::to_string(needed)), std::string::npos);
-}
-
 TEST(ClothSolver, ABodyThatItDoesNotTakeMovesAsInPlainBullet) {
   using Change = std::function<void(btSoftBody&)>;
   const std::vector<std::pair<std::string, Change>> changes = {
@@ -407,83 +395,6 @@ TEST(ClothSolver, LinksWithoutHardnessAndTooMuchDampingWriteNoNaN) {
   body.m_cfg.kDP = btScalar(1.5);
   scene.step(2);
   EXPECT_LT(largestSpeed(body), 1);
-}
-
-TEST(ClothSolver, ShowsEachSmallStep) {
-  SolverScene scene(WorldKind::softRigid, kEarthGravity, smallSteps(7));
-  btSoftBody& body = scene.add(hangingPatch(5));
-  std::vector<int> indices;
-  btVector3 last(0, 0, 0);
-  scene.solver().setSmallStepCallback([&](const wetcloth::ClothSolver::SmallStepView& view) {
-    EXPECT_EQ(&view.body, &body);
-    indices.push_back(view.index);
-    last = view.position(2);
-  });
-  scene.step(1);
-  EXPECT_EQ(indices, (std::vector<int>{0, 1, 2, 3, 4, 5, 6}));
-  EXPECT_LT(double((last - body.m_nodes[2].m_x).length()), 1e-6);
-}
-
-// Largest distance of a node from the pinned row above it, over what the cloth has at rest.
-double reach(const btSoftBody& body, int n) {
-  double longest = 0;
-  for (int k = 0; k < n; ++k) {
-    const btVector3 away = body.m_nodes[k].m_x - body.m_nodes[n * (n - 1) + k].m_x;
-    longest = std::max(longest, double(away.length()));
-  }
-  return longest;
-}
-
-TEST(ClothSolver, TethersHoldAFineClothAtFewSmallSteps) {
-  constexpr int kSide = 24;
-  const auto reachWith = [](int tethers, double scale) {
-    wetcloth::ClothSolver::Parameters parameters = smallSteps(2);
-    parameters.tethers = tethers;
-    parameters.tetherScale = scale;
-    SolverScene scene(WorldKind::softRigid, kEarthGravity, parameters);
-    btSoftBody& body = scene.add(hangingPatch(kSide));
-    scene.step(60);
-    return reach(body, kSide);
-  };
-  EXPECT_GT(reachWith(0, 1), 1.03);
-  EXPECT_LT(reachWith(1, 1), 1 + 1e-5);
-  EXPECT_LT(reachWith(1, 1.02), 1.02 + 1e-4);
-  EXPECT_GT(reachWith(1, 1.02), 1.01);
-}
-
-TEST(ClothSolver, TethersFollowWhatIsPinned) {
-  wetcloth::ClothSolver::Parameters parameters = smallSteps(4);
-  parameters.tethers = 2;
-  SolverScene scene(WorldKind::softRigid, kEarthGravity, parameters);
-  btSoftBody& body = scene.add(hangingPatch(8));
-  scene.step(5);
-  for (int k = 0; k < body.m_nodes.size(); ++k) body.m_nodes[k].m_im = 100;  // all free: it falls
-  scene.step(60);
-  EXPECT_LT(double(body.m_nodes[63].m_x.y()), -3);
-}
-
-// They are about as long in any of Bullet's steps.
-TEST(ClothSolver, AShorterStepHasFewerSmallSteps) {
-  SolverScene scene;
-  btSoftBody& body = scene.add(hangingPatch(4));
-  scene.step(1);
-  const auto count = [&](double dt) { return scene.solver().smallStepsIn(body, dt); };
-  EXPECT_EQ(count(1.0 / 60), 10);
-  EXPECT_EQ(count(1.0 / 30), 20);
-  EXPECT_EQ(count(1.0 / 120), 5);
-  EXPECT_EQ(count(1.0 / 240), 3);
-  EXPECT_EQ(count(1.0 / 1000), 1);
-  scene.step(1, 1.0 / 1000);
-  EXPECT_EQ(count(1.0 / 1000), 2) << "the second step of that length: half as long as those before";
-  EXPECT_EQ(count(1.0 / 2000), 1);
-  scene.step(3, 1.0 / 1000);
-  EXPECT_EQ(count(1.0 / 1000), 4) << "the least";
-  EXPECT_EQ(count(100), 1000);
-  body.m_cfg.timescale = 2;
-  EXPECT_EQ(count(1.0 / 60), 20);
-  body.m_cfg.viterations = 1;
-  scene.step(1);
-  EXPECT_EQ(count(1.0 / 60), 0) << "Bullet's";
 }
 
 TEST(ClothSolver, RefusesBadParameters) {

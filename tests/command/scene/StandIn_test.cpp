@@ -46,7 +46,7 @@ TEST(StandIn, IsOfFewNodesAsHeavyAndAsFarApart) {
   EXPECT_EQ(small.cloths[0].effects.size(), scene.cloths[0].effects.size());
 }
 
-TEST(Validate, TakesAnArrayWithANumberForEachNode) {
+TEST(ValidateLargeCloth, TakesAnArrayWithANumberForEachNode) {
   const TemporaryDirectory directory;
   Json scene = largeScene(20);
   scene["cloths"][0]["effects"]["absorption"] = {{"exposure", std::vector<double>(400, 0.5)}};
@@ -54,7 +54,7 @@ TEST(Validate, TakesAnArrayWithANumberForEachNode) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
-TEST(Validate, NamesWhatTheLibraryRefusesOfALargeCloth) {
+TEST(ValidateLargeCloth, NamesWhatTheLibraryRefusesOfALargeCloth) {
   const TemporaryDirectory directory;
   Json scene = largeScene(100);
   scene["cloths"][0]["collisions"] = {"CL_RS"};
