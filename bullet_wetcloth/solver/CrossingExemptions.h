@@ -25,7 +25,7 @@ class CrossingExemptions {
     for (const Crossing& crossing : crossings) {
       for (const int a : crossing.edge) {
         m_isIn[static_cast<std::size_t>(a)] = true;
-        for (const int b : crossing.face) m_pairs.push_back(std::minmax(a, b));
+        for (const int b : crossing.face) m_pairs.emplace_back(std::min(a, b), std::max(a, b));
       }
       for (const int b : crossing.face) m_isIn[static_cast<std::size_t>(b)] = true;
     }
