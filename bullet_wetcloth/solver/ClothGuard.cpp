@@ -258,8 +258,7 @@ void ClothGuard::hold() {
   m_pairs.cling().renew();
   m_age >= m_ahead ? look() : static_cast<void>(++m_age);
   if (!m_pairs.isEmpty()) {
-    gather();
-    m_isAside = true;
+    gatherToMove();
     m_pairs.part(m_nodes);
     scatter();
   }
@@ -281,8 +280,7 @@ void ClothGuard::hold() {
 
 void ClothGuard::enforce() {
   if (m_pairs.isEmpty()) return;
-  gather();
-  m_isAside = true;
+  gatherToMove();
   const GuardPairs::Outcome outcome = m_pairs.enforce(m_nodes);
   scatter();
   m_totals.stopped += outcome.stopped;
@@ -290,24 +288,40 @@ void ClothGuard::enforce() {
   m_totals.forced += outcome.forced;
 }
 
+// What parts the nodes that are held is aside, until the end of the small step.
+void ClothGuard::gatherToMove() {
+  gather();
+  m_areAllAside = m_areAllAside || m_areAllHeld;
+  m_aside.insert(m_aside.end(), m_held.begin(), m_held.end());
+}
+
+template <class Action>
+void ClothGuard::forEachAside(const Action& action) {
+  if (m_areAllAside) {
+    forEachNode([&](std::size_t c, int node) { action(c, node); });
+  } else {
+    for (const int node : m_aside) {
+      const std::size_t c = clothOf(node);
+      action(c, node - static_cast<int>(m_first[c]));
+    }
+  }
+  m_areAllAside = false;
+  m_aside.clear();
+}
+
 void ClothGuard::forgetAside() {
-  if (!m_isAside) return;
-  m_isAside = false;
-  for (GuardNodes::Place& aside : m_nodes.aside) aside = {};
+  forEachAside([this](std::size_t c, int node) { m_nodes.aside[m_first[c] + toSize(node)] = {}; });
 }
 
 // What moved nodes aside has changed where they would be without links and contacts, and so no velocity.
 void ClothGuard::keepAside() {
-  if (!m_isAside) return;
-  for (std::size_t c = 0; c < m_cloths.size(); ++c) {
+  forEachAside([this](std::size_t c, int node) {
     const Cloth& cloth = m_cloths[c];
-    for (int node = 0; node < cloth.nodeCount; ++node) {
-      const std::size_t slot = toSize(cloth.slots[node]);
-      const GuardNodes::Place& aside = m_nodes.aside[m_first[c] + toSize(node)];
-      for (std::size_t axis = 0; axis < 3; ++axis) cloth.nodes.predicted[axis][slot] += aside.at[axis];
-    }
-  }
-  forgetAside();
+    const std::size_t slot = toSize(cloth.slots[node]);
+    GuardNodes::Place& aside = m_nodes.aside[m_first[c] + toSize(node)];
+    for (std::size_t axis = 0; axis < 3; ++axis) cloth.nodes.predicted[axis][slot] += aside.at[axis];
+    aside = {};  // a node may come again
+  });
 }
 
 void ClothGuard::stopAll() {
@@ -321,7 +335,7 @@ void ClothGuard::stopAll() {
     }
   }
   look();
-  gather();
+  forEachNode([this](std::size_t c, int node) { gather(c, node); });
   m_stops.addAll(m_nodes);
   if (m_pairs.settle(m_nodes)) return;
   m_totals.forced += m_pairs.release(m_nodes);
@@ -352,9 +366,7 @@ void ClothGuard::look() {
   m_age = 1;
   m_ahead = std::min(m_parameters.every, m_smallSteps - m_taken);
   while (expectAll() > kRestless && m_ahead > kFewAhead) m_ahead /= 2;
-  for (std::size_t c = 0; c < m_cloths.size(); ++c) {
-    for (int node = 0; node < m_cloths[c].nodeCount; ++node) showExpected(c, node, 0);
-  }
+  for (std::size_t c = 0; c < m_cloths.size(); ++c) showExpected(c);
   m_pairs.clear();
   m_candidates.clear();
   m_tiles.findPairs(m_nodes, m_contact.thickness, {m_parameters.self, m_parameters.others}, m_candidates);
@@ -410,6 +422,7 @@ void ClothGuard::addPlanes() {
   gather(m_candidates);
   m_totals.meeting = std::max(m_totals.meeting, m_pairs.look(m_nodes, m_candidates, m_contact));
   m_totals.pairs += static_cast<long long>(m_pairs.size());
+  findHeld();
 }
 
 void ClothGuard::expectOnPresentWay(std::size_t c, int node) {
@@ -431,7 +444,35 @@ void ClothGuard::expectOnPresentWay(std::size_t c, int node) {
   showExpected(c, node, m_age - 1);
 }
 
-// To those who find pairs.
+// To those who find pairs: of all nodes, at a look.
+void ClothGuard::showExpected(std::size_t c) {
+  const Cloth& cloth = m_cloths[c];
+  const Kept& kept = m_kept[c];
+  if (!cloth.nodeOfSlot) {
+    for (int node = 0; node < cloth.nodeCount; ++node) showExpected(c, node, 0);
+    return;
+  }
+  const btVector3 away = cloth.origin - m_cloths.front().origin;
+  const Quad steps = everywhere<Quad>(static_cast<btScalar>(m_ahead));
+  GuardNodes::Way* const ways = &m_nodes.expected[m_first[c]];
+  for (std::size_t slot = 0; slot < cloth.nodes.count; slot += 4) {
+    Quad starts[4], ends[4], start[4], end[4];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      starts[axis] = load<Quad>(&kept.last[axis][slot]) + everywhere<Quad>(away[static_cast<int>(axis)]);
+      ends[axis] = starts[axis] + load<Quad>(&kept.way[axis][slot]) * steps;
+    }
+    starts[3] = ends[3] = load<Quad>(&kept.slack[slot]);
+    transpose(starts, start);
+    transpose(ends, end);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const int node = cloth.nodeOfSlot[slot + k];
+      if (node < 0) continue;
+      store(ways[node].start.at, start[k]);
+      store(ways[node].end.at, end[k]);
+    }
+  }
+}
+
 // @param age  in small steps since the last look at all, when it begins to go there
 void ClothGuard::showExpected(std::size_t c, int node, int age) {
   const Cloth& cloth = m_cloths[c];
@@ -446,20 +487,51 @@ void ClothGuard::showExpected(std::size_t c, int node, int age) {
   start.at[3] = end.at[3] = kept.slack[slot];
 }
 
-void ClothGuard::gather() {
-  for (std::size_t c = 0; c < m_cloths.size(); ++c) {
-    for (int node = 0; node < m_cloths[c].nodeCount; ++node) gather(c, node);
+// Whose places the pairs see and change.
+void ClothGuard::findHeld() {
+  m_held.clear();
+  m_areAllHeld = 4 * m_pairs.size() > m_nodes.to.size();
+  if (m_areAllHeld) return;
+  m_pairs.forEachNode([this](int node) { m_held.push_back(node); });
+  std::sort(m_held.begin(), m_held.end());
+  m_held.erase(std::unique(m_held.begin(), m_held.end()), m_held.end());
+}
+
+template <class Action>
+void ClothGuard::forEachHeld(const Action& action) const {
+  if (m_areAllHeld) return forEachNode(action);
+  std::size_t c = 0;
+  for (const int node : m_held) {
+    while (c + 1 < m_first.size() && m_first[c + 1] <= toSize(node)) ++c;
+    action(c, node - static_cast<int>(m_first[c]));
   }
+}
+
+template <class Action>
+void ClothGuard::forEachNode(const Action& action) const {
+  for (std::size_t c = 0; c < m_cloths.size(); ++c) {
+    for (int node = 0; node < m_cloths[c].nodeCount; ++node) action(c, node);
+  }
+}
+
+void ClothGuard::gather() {
+  forEachHeld([this](std::size_t c, int node) { gather(c, node); });
+}
+
+std::size_t ClothGuard::clothOf(int node) const {
+  const auto next = std::upper_bound(m_first.begin(), m_first.end(), toSize(node));
+  return static_cast<std::size_t>(next - m_first.begin()) - 1;
 }
 
 // The nodes of these pairs, if that is less.
 void ClothGuard::gather(const GuardCandidates& pairs) {
-  if (4 * pairs.size() > m_nodes.to.size()) return gather();
+  if (4 * pairs.size() > m_nodes.to.size()) {
+    return forEachNode([this](std::size_t c, int node) { gather(c, node); });
+  }
   for (const std::vector<GuardPair>* const some : {&pairs.vertexFace, &pairs.edgeEdge}) {
     for (const GuardPair& pair : *some) {
       for (const int node : pair.node) {
-        const auto next = std::upper_bound(m_first.begin(), m_first.end(), toSize(node));
-        const std::size_t c = static_cast<std::size_t>(next - m_first.begin()) - 1;
+        const std::size_t c = clothOf(node);
         gather(c, node - static_cast<int>(m_first[c]));
       }
     }
@@ -479,18 +551,15 @@ void ClothGuard::gather(std::size_t c, int node) {
 }
 
 void ClothGuard::scatter() {
-  for (std::size_t c = 0; c < m_cloths.size(); ++c) {
+  forEachHeld([this](std::size_t c, int node) {
     const Cloth& cloth = m_cloths[c];
-    if (cloth.isStill) continue;
+    const std::size_t slot = toSize(cloth.slots[node]);
+    if (cloth.isStill || !(cloth.nodes.inverseMass[slot] > 0)) return;
     const btVector3 away = cloth.origin - m_cloths.front().origin;
-    for (int node = 0; node < cloth.nodeCount; ++node) {
-      const std::size_t slot = toSize(cloth.slots[node]);
-      if (!(cloth.nodes.inverseMass[slot] > 0)) continue;
-      for (int axis = 0; axis < 3; ++axis) {
-        cloth.nodes.position[axis][slot] = m_nodes.to[m_first[c] + toSize(node)].at[axis] - away[axis];
-      }
+    for (int axis = 0; axis < 3; ++axis) {
+      cloth.nodes.position[axis][slot] = m_nodes.to[m_first[c] + toSize(node)].at[axis] - away[axis];
     }
-  }
+  });
 }
 
 }  // namespace WETCLOTH_PRECISION

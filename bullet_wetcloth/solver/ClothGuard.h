@@ -39,6 +39,7 @@ class ClothGuard {
     bool isStill = false;  ///< it is not stepped: nothing moves it
     bool isNew = false;    ///< its mesh is a new one
     const LayerWetness* wetness = nullptr;
+    const int* nodeOfSlot = nullptr;  ///< of each slot, -1: none; or null: it is not known
   };
 
   /// Before the first small step of a step: nodes stand where they were at its end, and pins where they come from.
@@ -79,6 +80,7 @@ class ClothGuard {
   double expectAll();
   void lookAgain();
   void expectOnPresentWay(std::size_t cloth, int node);
+  void showExpected(std::size_t cloth);
   void showExpected(std::size_t cloth, int node, int age);
   WaySlack slackFor(int steps) const;
   void addPlanes();
@@ -86,6 +88,15 @@ class ClothGuard {
   void takeWetness();
   void forgetAside();
   void keepAside();
+  template <class Action>
+  void forEachNode(const Action& action) const;
+  template <class Action>
+  void forEachHeld(const Action& action) const;
+  template <class Action>
+  void forEachAside(const Action& action);
+  std::size_t clothOf(int node) const;
+  void findHeld();
+  void gatherToMove();
   void gather();
   void gather(const GuardCandidates& pairs);
   void gather(std::size_t cloth, int node);
@@ -116,7 +127,10 @@ class ClothGuard {
   std::vector<Kept> m_kept;
   std::vector<int> m_left;      // nodes that were not where they were expected
   PackedNodes::Lane m_isFound;  // of each node of a cloth, by slot
-  bool m_isAside = false;       // whether any node is
+  std::vector<int> m_held;      // nodes that pairs hold, ascending, unless
+  bool m_areAllHeld = false;    // that are most of them
+  std::vector<int> m_aside;     // nodes that may be aside, some more than once, unless
+  bool m_areAllAside = false;   // all may be
   int m_smallSteps = 0;         // in this step
   int m_taken = 0;              // of them
   int m_age = 0;                // small steps since the last look at all nodes, that one included

@@ -48,6 +48,15 @@ class GuardPairs {
   /// Coefficient between the two places of a plane.
   btScalar frictionOf(const GuardPlanes& planes, std::size_t plane, const GuardNodes& nodes) const;
   const GuardPlanes& vertexFace() const { return m_vertexFace; }
+  /// Calls action(node) for the nodes of all pairs, some more than once.
+  template <class Action>
+  void forEachNode(const Action& action) const {
+    for (const GuardPlanes* const planes : {&m_vertexFace, &m_edgeEdge}) {
+      for (std::size_t plane = 0; plane < planes->size(); ++plane) {
+        for (int k = 0; k < 4; ++k) action(planes->node(plane, k));
+      }
+    }
+  }
   std::size_t size() const { return m_vertexFace.size() + m_edgeEdge.size(); }
 
   /// Parts that are within the thickness move away from each other, without a change of velocity. Once a small step.

@@ -62,6 +62,8 @@ class LocalNodes : public PackedNodes {
   int nodeCount() const { return static_cast<int>(m_slots.size()); }
   /// Those of all nodes.
   const int* slots() const { return m_slots.data(); }
+  /// The node of each slot, -1: none.
+  const int* nodesOfSlots() const { return m_nodeOfSlot.data(); }
   MovingNodes moving();
 
  protected:

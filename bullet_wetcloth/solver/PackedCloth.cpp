@@ -294,9 +294,16 @@ LinkedNodes PackedCloth::linked() {
 ClothGuard::Cloth PackedCloth::guarded() {
   const bool isNew = !m_guardMesh;
   if (isNew) m_guardMesh = std::make_unique<GuardMesh>(guardMeshOf(m_body, m_grid));
-  return {m_guardMesh.get(), m_nodes.moving(), m_nodes.slots(), m_nodes.nodeCount(),
-          m_nodes.origin(),  m_step.h,         false,           isNew,
-          &m_wetness};
+  return {m_guardMesh.get(),
+          m_nodes.moving(),
+          m_nodes.slots(),
+          m_nodes.nodeCount(),
+          m_nodes.origin(),
+          m_step.h,
+          false,
+          isNew,
+          &m_wetness,
+          m_nodes.nodesOfSlots()};
 }
 
 std::optional<ClothGuard::Cloth> PackedCloth::standing() {
