@@ -161,11 +161,18 @@ class PatchMaker {
       m_isIn[toSize(face)] = 1;
       m_faces.push_back(face);
     };
+    spread(add);
+  }
+  // From the first face across sides to all that can be added.
+  template <class Add>
+  void spread(const Add& add) {
     add(m_seed);
-    for (std::size_t k = 0; k < m_faces.size(); ++k) {
+    std::size_t next = 0;
+    while (next < m_faces.size()) {
+      const int face = m_faces[next++];
       for (std::size_t side = 0; side < 3; ++side) {
-        const int next = m_neighbours.across(m_faces[k], side);
-        if (next >= 0) add(next);
+        const int beyond = m_neighbours.across(face, side);
+        if (beyond >= 0) add(beyond);
       }
     }
   }
@@ -201,13 +208,7 @@ class PatchMaker {
       m_isIn[toSize(face)] = kJoined;
       m_faces.push_back(face);
     };
-    add(m_seed);
-    for (std::size_t k = 0; k < m_faces.size(); ++k) {
-      for (std::size_t side = 0; side < 3; ++side) {
-        const int next = m_neighbours.across(m_faces[k], side);
-        if (next >= 0) add(next);
-      }
-    }
+    spread(add);
     for (const int face : before) m_isIn[toSize(face)] = m_isIn[toSize(face)] == kJoined ? 1 : 0;
   }
   // Whether all sides go round the middle; faces with one that does not are taken out.
