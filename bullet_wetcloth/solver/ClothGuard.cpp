@@ -338,7 +338,7 @@ void ClothGuard::look() {
   m_ahead = std::min(m_parameters.every, m_smallSteps - m_taken);
   while (expectAll() > kRestless && m_ahead > kFewAhead) m_ahead /= 2;
   for (std::size_t c = 0; c < m_cloths.size(); ++c) {
-    for (int node = 0; node < m_cloths[c].nodeCount; ++node) showExpected(c, node, 0);
+    for (int node = 0; node < m_cloths[c].nodeCount; ++node) showExpected(c, node);
   }
   m_pairs.clear();
   m_candidates.clear();
@@ -413,20 +413,20 @@ void ClothGuard::expectOnPresentWay(std::size_t c, int node) {
     slack = std::max(slack, slackOf.of(now, acceleration));
   }
   kept.slack[slot] = slack;
-  showExpected(c, node, m_age - 1);
+  showExpected(c, node);
 }
 
-// To those who find pairs.
-// @param age  in small steps since the last look at all, when it begins to go there
-void ClothGuard::showExpected(std::size_t c, int node, int age) {
+// To those who find pairs: from the last look at all nodes on, also of what has left its way since then. What they say
+// of two nodes is between what it is at the start and at the end only where both start at one time.
+void ClothGuard::showExpected(std::size_t c, int node) {
   const Cloth& cloth = m_cloths[c];
   const Kept& kept = m_kept[c];
   const btVector3 away = cloth.origin - m_cloths.front().origin;
   const std::size_t slot = toSize(cloth.slots[node]);
   auto& [start, end] = m_nodes.expected[m_first[c] + toSize(node)];
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    start.at[axis] = kept.last[axis][slot] + away[static_cast<int>(axis)];
-    end.at[axis] = start.at[axis] + kept.way[axis][slot] * static_cast<btScalar>(m_ahead - age);
+    start.at[axis] = kept.from[axis][slot] + away[static_cast<int>(axis)];
+    end.at[axis] = start.at[axis] + kept.way[axis][slot] * static_cast<btScalar>(m_ahead);
   }
   start.at[3] = end.at[3] = kept.slack[slot];
 }

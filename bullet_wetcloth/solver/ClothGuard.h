@@ -73,7 +73,7 @@ class ClothGuard {
   double expectAll();
   void lookAgain();
   void expectOnPresentWay(std::size_t cloth, int node);
-  void showExpected(std::size_t cloth, int node, int age);
+  void showExpected(std::size_t cloth, int node);
   WaySlack slackFor(int steps) const;
   void addPlanes();
   void enforce();
