@@ -441,7 +441,7 @@ void ClothGuard::expectOnPresentWay(std::size_t c, int node) {
     slack = std::max(slack, slackOf.of(now, acceleration));
   }
   kept.slack[slot] = slack;
-  showExpected(c, node, m_age - 1);
+  showExpected(c, node);
 }
 
 // To those who find pairs: of all nodes, at a look.
@@ -449,7 +449,7 @@ void ClothGuard::showExpected(std::size_t c) {
   const Cloth& cloth = m_cloths[c];
   const Kept& kept = m_kept[c];
   if (!cloth.nodeOfSlot) {
-    for (int node = 0; node < cloth.nodeCount; ++node) showExpected(c, node, 0);
+    for (int node = 0; node < cloth.nodeCount; ++node) showExpected(c, node);
     return;
   }
   const btVector3 away = cloth.origin - m_cloths.front().origin;
@@ -458,7 +458,7 @@ void ClothGuard::showExpected(std::size_t c) {
   for (std::size_t slot = 0; slot < cloth.nodes.count; slot += 4) {
     Quad starts[4], ends[4], start[4], end[4];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      starts[axis] = load<Quad>(&kept.last[axis][slot]) + everywhere<Quad>(away[static_cast<int>(axis)]);
+      starts[axis] = load<Quad>(&kept.from[axis][slot]) + everywhere<Quad>(away[static_cast<int>(axis)]);
       ends[axis] = starts[axis] + load<Quad>(&kept.way[axis][slot]) * steps;
     }
     starts[3] = ends[3] = load<Quad>(&kept.slack[slot]);
@@ -473,16 +473,17 @@ void ClothGuard::showExpected(std::size_t c) {
   }
 }
 
-// @param age  in small steps since the last look at all, when it begins to go there
-void ClothGuard::showExpected(std::size_t c, int node, int age) {
+// From the last look at all nodes on, also of what has left its way since then. What they say
+// of two nodes is between what it is at the start and at the end only where both start at one time.
+void ClothGuard::showExpected(std::size_t c, int node) {
   const Cloth& cloth = m_cloths[c];
   const Kept& kept = m_kept[c];
   const btVector3 away = cloth.origin - m_cloths.front().origin;
   const std::size_t slot = toSize(cloth.slots[node]);
   auto& [start, end] = m_nodes.expected[m_first[c] + toSize(node)];
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    start.at[axis] = kept.last[axis][slot] + away[static_cast<int>(axis)];
-    end.at[axis] = start.at[axis] + kept.way[axis][slot] * static_cast<btScalar>(m_ahead - age);
+    start.at[axis] = kept.from[axis][slot] + away[static_cast<int>(axis)];
+    end.at[axis] = start.at[axis] + kept.way[axis][slot] * static_cast<btScalar>(m_ahead);
   }
   start.at[3] = end.at[3] = kept.slack[slot];
 }

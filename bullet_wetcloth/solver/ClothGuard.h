@@ -81,7 +81,7 @@ class ClothGuard {
   void lookAgain();
   void expectOnPresentWay(std::size_t cloth, int node);
   void showExpected(std::size_t cloth);
-  void showExpected(std::size_t cloth, int node, int age);
+  void showExpected(std::size_t cloth, int node);
   WaySlack slackFor(int steps) const;
   void addPlanes();
   void enforce();

@@ -88,12 +88,22 @@ class CellWriter {
     m_hasEdge[toSize(index)] = true;
     m_mesh.edges.push_back({{edge.a, edge.b}});
   }
+  // Not one that has a node twice, nor one that is there already.
+  bool isTriangle(int face) const {
+    const auto& [a, b, c] = m_rest.triangles()[toSize(face)].nodes;
+    return a != b && b != c && c != a && !m_rest.triangles()[toSize(face)].isDoubled;
+  }
+  // Of the body's faces those that are.
+  std::vector<int> triangles() const {
+    std::vector<int> faces;
+    for (int face = 0; face < m_body.m_faces.size(); ++face) {
+      if (isTriangle(face)) faces.push_back(face);
+    }
+    return faces;
+  }
   void addFace(int face) {
-    const GuardMesh::Face nodes = nodesOf(m_body, face);
-    const bool isTriangle =
-        nodes.node[0] != nodes.node[1] && nodes.node[1] != nodes.node[2] && nodes.node[2] != nodes.node[0];
-    if (!isTriangle || m_rest.triangles()[toSize(face)].isDoubled) return;
-    m_mesh.faces.push_back(nodes);
+    if (!isTriangle(face)) return;
+    m_mesh.faces.push_back(nodesOf(m_body, face));
     if (m_mesh.isGrid()) return;
     const btSoftBody::Face& f = m_body.m_faces[face];
     const btScalar doubleArea = (f.m_n[1]->m_x - f.m_n[0]->m_x).cross(f.m_n[2]->m_x - f.m_n[0]->m_x).length();
@@ -251,9 +261,7 @@ GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Gri
   CellWriter writer(body, mesh.columns, mesh);
   if (mesh.isGrid()) {
     fillGrid(facesOfCorner, writer, mesh);
-  } else if (body.m_faces.size() > 0) {
-    std::vector<int> order(toSize(body.m_faces.size()));
-    for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
+  } else if (std::vector<int> order = writer.triangles(); !order.empty()) {
     fillTiles(body, order.data(), order.data() + order.size(), writer, mesh);
   }
   writer.beginCell(0, 0);

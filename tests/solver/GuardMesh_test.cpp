@@ -79,6 +79,21 @@ void expectEachPartOnce(const btSoftBody& body) {
   EXPECT_EQ(cell, int(mesh.cells.size()) - 1);
 }
 
+// What holds a triangle holds all parts of its cell.
+void expectPartsInTheirTriangle(const GuardMesh& mesh) {
+  for (std::size_t k = 0; k + 1 < mesh.cells.size(); ++k) {
+    const GuardMesh::Cell& cell = mesh.cells[k];
+    const GuardMesh::Cell& end = mesh.cells[k + 1];
+    ASSERT_EQ(end.face - cell.face, 1) << "cell " << k;
+    const auto& corners = mesh.faces[std::size_t(cell.face)].node;
+    const std::set<int> triangle(corners, corners + 3);
+    for (int i = cell.vertex; i < end.vertex; ++i) EXPECT_EQ(triangle.count(mesh.vertices[std::size_t(i)]), 1u);
+    for (int i = cell.edge; i < end.edge; ++i) {
+      for (const int node : mesh.edges[std::size_t(i)].node) EXPECT_EQ(triangle.count(node), 1u);
+    }
+  }
+}
+
 TEST(GuardMesh, OfGridsOfAnySize) {
   SolverScene scene;
   const int sizes[][2] = {{2, 2}, {2, 9}, {3, 3}, {7, 5}, {8, 8}, {9, 9}, {9, 17}, {16, 15}, {17, 3}, {25, 33}};
@@ -159,6 +174,25 @@ TEST(GuardMesh, OfAMeshThatIsNoGrid) {
   const btSoftBody& body = scene.add(mesh.shuffled(random).builder());
   EXPECT_FALSE(guardMesh(body).isGrid());
   expectEachPartOnce(body);
+  expectPartsInTheirTriangle(guardMesh(body));
+}
+
+TEST(GuardMesh, OfAMeshThatIsNoGridWithTrianglesTwiceAndSomeThatAreNone) {
+  Triangles mesh = Triangles::of(levelPatch(11, 1));
+  std::mt19937 random(3);
+  const std::size_t count = mesh.faces.size();
+  for (std::size_t k = 0; k < count; k += 3) {
+    const auto [a, b, c] = mesh.faces[k];
+    mesh.faces.push_back({b, a, c});
+    mesh.faces.push_back({a, b, b});
+  }
+  std::shuffle(mesh.faces.begin(), mesh.faces.end(), random);
+  SolverScene scene;
+  const btSoftBody& body = scene.add(mesh.shuffled(random).builder());
+  const GuardMesh guarded = guardMesh(body);
+  EXPECT_FALSE(guarded.isGrid());
+  EXPECT_EQ(guarded.faces.size(), count);
+  expectPartsInTheirTriangle(guarded);
 }
 
 }  // namespace
