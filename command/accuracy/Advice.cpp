@@ -20,7 +20,7 @@ std::string errorText(double error) {
   char text[32];
   if (error == 0) return "0";
   if (error >= 1e-4) {
-    std::snprintf(text, sizeof text, "%.2g %%", 100 * error);
+    std::snprintf(text, sizeof text, error < 0.995 ? "%.2g %%" : "%.0f %%", 100 * error);
   } else {
     std::snprintf(text, sizeof text, "%.1e", error);
   }
