@@ -30,15 +30,13 @@ std::vector<btScalar> run(WorldKind kind, int seed, int steps) {
   return result;
 }
 
-using WorldsAndThreads = InEveryWorld;
-
-TEST_P(WorldsAndThreads, SameRunTwiceSameBytes) {
+TEST_IN_EVERY_WORLD(WorldsAndThreads, SameRunTwiceSameBytes) {
   EXPECT_TRUE(sameBits(run(GetParam(), 1, 200), run(GetParam(), 1, 200)));
   EXPECT_FALSE(sameBits(run(GetParam(), 1, 200), run(GetParam(), 3, 200)));
 }
 
 // Worlds come and go in each thread all the time, so that attaching and detaching meet as well.
-TEST_P(WorldsAndThreads, EachThreadGetsTheResultOfASingleOne) {
+TEST_IN_EVERY_WORLD(WorldsAndThreads, EachThreadGetsTheResultOfASingleOne) {
   constexpr int kThreads = 4;
   constexpr int kRounds = 6;
   std::vector<std::vector<btScalar>> expected;
@@ -58,7 +56,7 @@ TEST_P(WorldsAndThreads, EachThreadGetsTheResultOfASingleOne) {
   for (int seed = 0; seed < kThreads; ++seed) EXPECT_TRUE(same[seed]) << seed;
 }
 
-TEST_P(WorldsAndThreads, TwoWorldsInOneThreadTakeTurns) {
+TEST_IN_EVERY_WORLD(WorldsAndThreads, TwoWorldsInOneThreadTakeTurns) {
   BodyScene one(GetParam(), squarePatch(3));
   BodyScene two(GetParam(), squarePatch(3));
   wetcloth::WetClothWorld wetOne(one.world());
@@ -71,8 +69,6 @@ TEST_P(WorldsAndThreads, TwoWorldsInOneThreadTakeTurns) {
   EXPECT_EQ(calls[0], 3);
   EXPECT_EQ(calls[1], 5);
 }
-
-WETCLOTH_IN_EVERY_WORLD(WorldsAndThreads);
 
 class SeveralCloths : public InEveryWorld {
  protected:
