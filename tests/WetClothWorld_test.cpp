@@ -70,7 +70,7 @@ TEST_IN_EVERY_WORLD(WorldsAndThreads, TwoWorldsInOneThreadTakeTurns) {
   EXPECT_EQ(calls[1], 5);
 }
 
-class SeveralCloths : public InEveryWorld {
+class SeveralCloths {
  protected:
   static std::unique_ptr<btSoftBody> place(BulletWorld& bullet, double x) {
     wetcloth::ClothPatch patch = hangingPatch(4);
@@ -82,7 +82,7 @@ class SeveralCloths : public InEveryWorld {
 };
 
 // A wet, windy neighbour far away changes nothing: the dry one runs as if alone with its like.
-TEST_P(SeveralCloths, DoNotFeelEachOther) {
+TEST_F_IN_EVERY_WORLD(SeveralCloths, DoNotFeelEachOther) {
   std::vector<btScalar> results[2];
   for (const bool withNeighbour : {false, true}) {
     BulletWorld bullet(GetParam());
@@ -107,7 +107,7 @@ TEST_P(SeveralCloths, DoNotFeelEachOther) {
   EXPECT_LT(largestDifference(results[0], results[1]), BulletWorld(GetParam()).isDeformable() ? 1e-4 : 1e-12);
 }
 
-TEST_P(SeveralCloths, AreFoundRemovedAndAddedAgain) {
+TEST_F_IN_EVERY_WORLD(SeveralCloths, AreFoundRemovedAndAddedAgain) {
   BulletWorld bullet(GetParam());
   std::unique_ptr<btSoftBody> one = place(bullet, 0);
   std::unique_ptr<btSoftBody> two = place(bullet, 100);
@@ -134,8 +134,6 @@ TEST_P(SeveralCloths, AreFoundRemovedAndAddedAgain) {
   bullet.remove(*one);
   bullet.remove(*two);
 }
-
-WETCLOTH_IN_EVERY_WORLD(SeveralCloths);
 
 }  // namespace
 }  // namespace wetcloth_test::wet_cloth_world_test

@@ -13,7 +13,7 @@ namespace wetcloth_test {
 
 inline WorldKind worldOfTheTest = WorldKind::softRigid;
 
-/// The world of the test that runs: as GoogleTest's own, which takes its place in the fixtures that have it.
+/// The world of the test that runs; in tests with other parameters GoogleTest's own takes its place.
 inline WorldKind GetParam() { return worldOfTheTest; }
 
 /// A test that is a function and runs in one of Bullet's worlds
@@ -44,19 +44,10 @@ inline constexpr std::initializer_list<WorldKind> kDeformableWorlds = {WorldKind
 inline constexpr std::initializer_list<WorldKind> kEveryWorld = {WorldKind::softRigid, WorldKind::softMultiBody,
                                                                  WorldKind::deformable, WorldKind::deformableImplicit};
 
-/// A fixture for tests that run in each of Bullet's worlds and share more than functions: `TEST_P(MyTest, ...)`, and
-/// WETCLOTH_IN_EVERY_WORLD(MyTest) once
-using InEveryWorld = testing::TestWithParam<WorldKind>;
-
-inline std::string nameOfWorld(const testing::TestParamInfo<WorldKind>& test) { return nameOf(test.param); }
-
 }  // namespace wetcloth_test
 
-#define WETCLOTH_IN_EVERY_WORLD(Suite) \
-  INSTANTIATE_TEST_SUITE_P(, Suite, testing::ValuesIn(::wetcloth_test::kEveryWorld), ::wetcloth_test::nameOfWorld)
-
-// Tests without a fixture, in some of Bullet's worlds, named as those of TEST_P are: Suite.Name/softRigid. GoogleTest's
-// own makes a class and two factories of each, 25 functions.
+// Tests in some of Bullet's worlds, named as those of TEST_P are: Suite.Name/softRigid. GoogleTest's own makes a class
+// and two factories of each, 25 functions, and 171 of each fixture.
 #define WETCLOTH_TEST_IN(worlds, suite, name)                                                   \
   static void suite##_##name##_Test();                                                          \
   [[maybe_unused]] static const bool suite##_##name##_added = ::wetcloth_test::addTestInWorlds( \
@@ -66,3 +57,14 @@ inline std::string nameOfWorld(const testing::TestParamInfo<WorldKind>& test) { 
 #define TEST_IN_EVERY_WORLD(suite, name) WETCLOTH_TEST_IN(kEveryWorld, suite, name)
 #define TEST_IN_POSITION_BASED_WORLDS(suite, name) WETCLOTH_TEST_IN(kPositionBasedWorlds, suite, name)
 #define TEST_IN_DEFORMABLE_WORLDS(suite, name) WETCLOTH_TEST_IN(kDeformableWorlds, suite, name)
+
+// The same with a fixture: any class, whose members are the test's. It is made when the test begins.
+#define WETCLOTH_TEST_F_IN(worlds, fixture, name)                        \
+  struct fixture##_##name : fixture {                                    \
+    void test();                                                         \
+  };                                                                     \
+  WETCLOTH_TEST_IN(worlds, fixture, name) { fixture##_##name().test(); } \
+  void fixture##_##name::test()
+
+#define TEST_F_IN_EVERY_WORLD(fixture, name) WETCLOTH_TEST_F_IN(kEveryWorld, fixture, name)
+#define TEST_F_IN_DEFORMABLE_WORLDS(fixture, name) WETCLOTH_TEST_F_IN(kDeformableWorlds, fixture, name)
