@@ -77,18 +77,13 @@ void addWaterCycle(BodyScene& scene, wetcloth::WetCloth& cloth) {
   cloth.add<wetcloth::WetFriction>();
 }
 
-class NoAllocation : public InEveryWorld {
- protected:
-  void SetUp() override {
-    if (!WETCLOTH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer owns operator new";
-  }
-};
-
-TEST_P(NoAllocation, TheCounterCounts) {
+TEST_IN_EVERY_WORLD(NoAllocation, TheCounterCounts) {
+  if (!WETCLOTH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer owns operator new";
   EXPECT_GE(allocationsIn([] { std::make_unique<std::vector<double>>(100); }), 2);
 }
 
-TEST_P(NoAllocation, InTheStepAfterItsFirstTurns) {
+TEST_IN_EVERY_WORLD(NoAllocation, InTheStepAfterItsFirstTurns) {
+  if (!WETCLOTH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer owns operator new";
   BodyScene scene(GetParam(), hangingPatch(10));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 3));
@@ -117,7 +112,8 @@ TEST_P(NoAllocation, InTheStepAfterItsFirstTurns) {
   EXPECT_GT(quietSteps, 100);
 }
 
-TEST_P(NoAllocation, InFillingAVertexBuffer) {
+TEST_IN_EVERY_WORLD(NoAllocation, InFillingAVertexBuffer) {
+  if (!WETCLOTH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer owns operator new";
   BodyScene scene(GetParam(), hangingPatch(10));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   const wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -167,20 +163,10 @@ TEST(NoAllocationOfTheGuard, InWetLayersThatTouch) {
   EXPECT_GT(wet.find(*bodies[0])->ledger().absorbed, 0);
 }
 
-WETCLOTH_IN_EVERY_WORLD(NoAllocation);
-
-class NoAllocationOnClothSolver : public testing::TestWithParam<WorldKind> {
- protected:
-  void SetUp() override {
-    if (!WETCLOTH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer owns operator new";
-  }
-};
-INSTANTIATE_TEST_SUITE_P(, NoAllocationOnClothSolver, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
-                         [](const auto& test) { return std::string(nameOf(test.param)); });
-
 // A cloth that is held all around with a weight under it and a ball in it, and one that falls on the floor: contacts
 // with what moves and with what does not, an anchor, links that soften while water comes.
-TEST_P(NoAllocationOnClothSolver, InTheWholeStepOfTwoCloths) {
+TEST_IN_POSITION_BASED_WORLDS(NoAllocationOnClothSolver, InTheWholeStepOfTwoCloths) {
+  if (!WETCLOTH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer owns operator new";
   SolverScene scene(GetParam());
   using Edge = wetcloth::ClothPatch::Edge;
   wetcloth::ClothPatch held = levelPatch(10, 1);

@@ -65,12 +65,12 @@ class AtOneAddress {
   btSoftBody* m_body = nullptr;
 };
 
-class AnotherBody : public InEveryWorld {
+class AnotherBody {
  protected:
   BulletWorld bullet{GetParam()};
 };
 
-TEST_P(AnotherBody, AddedAgainIsDry) {
+TEST_F_IN_EVERY_WORLD(AnotherBody, AddedAgainIsDry) {
   for (const int n : {5, 4, 6}) {
     AtOneAddress place(bullet, 5);
     wetcloth::WetClothWorld wet(bullet.world());
@@ -91,7 +91,7 @@ TEST_P(AnotherBody, AddedAgainIsDry) {
   }
 }
 
-TEST_P(AnotherBody, NotAddedAgainIsLeftAlone) {
+TEST_F_IN_EVERY_WORLD(AnotherBody, NotAddedAgainIsLeftAlone) {
   AtOneAddress place(bullet, 5);
   std::vector<std::string> messages;
   wetcloth::WetClothWorld wet(bullet.world());
@@ -111,8 +111,6 @@ TEST_P(AnotherBody, NotAddedAgainIsLeftAlone) {
   wet.remove(place.body());
   EXPECT_EQ(place.body().getTotalMass(), dry);
 }
-
-WETCLOTH_IN_EVERY_WORLD(AnotherBody);
 
 }  // namespace
 }  // namespace wetcloth_test::another_body_at_the_address_test

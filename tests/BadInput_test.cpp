@@ -31,7 +31,7 @@ std::string refusalOf(Action action) {
 }
 
 // A cloth with one effect of each kind, and what must not change when something is refused.
-class BadInput : public InEveryWorld {
+class BadInput {
  protected:
   BadInput() : scene(GetParam(), hangingPatch(4)), wet(scene.world()), cloth(wet.add(scene.body())) {
     wet.setLog({});
@@ -65,7 +65,7 @@ class BadInput : public InEveryWorld {
   wetcloth::WetCloth& cloth;
 };
 
-TEST_P(BadInput, Exposure) {
+TEST_F_IN_EVERY_WORLD(BadInput, Exposure) {
   using wetcloth::Absorption;
   expectParametersRefused<Absorption>({kNaN}, "exposure", "nan");
   expectParametersRefused<Absorption>({kInfinity}, "exposure", "inf");
@@ -79,14 +79,14 @@ TEST_P(BadInput, Exposure) {
   expectParametersRefused<Absorption>({std::vector<double>(15, 0.5)}, "exposure", "15");
 }
 
-TEST_P(BadInput, ExposureChangedLater) {
+TEST_F_IN_EVERY_WORLD(BadInput, ExposureChangedLater) {
   wetcloth::Absorption& soak = cloth.add<wetcloth::Absorption>({std::vector<double>(16, 0.5)});
   expectRefused([&] { adjust(soak, [](auto& p) { p.exposure = 2.5; }); }, "exposure", "2.5");
   expectRefused([&] { adjust(soak, [](auto& p) { p.exposure = std::vector<double>(17, 0.5); }); }, "exposure", "17");
   EXPECT_EQ(soak.parameters().exposure.at(3, btVector3(0, 0, 0), btVector3(0, 1, 0), 0), 0.5) << "still the old one";
 }
 
-TEST_P(BadInput, OtherParametersOfAbsorption) {
+TEST_F_IN_EVERY_WORLD(BadInput, OtherParametersOfAbsorption) {
   wetcloth::Absorption::Parameters parameters;
   parameters.rampDuration = -2.5;
   expectParametersRefused<wetcloth::Absorption>(parameters, "rampDuration", "-2.5");
@@ -99,7 +99,7 @@ TEST_P(BadInput, OtherParametersOfAbsorption) {
   expectParametersRefused<wetcloth::Absorption>(parameters, "waterVelocity", "nan");
 }
 
-TEST_P(BadInput, WindVelocity) {
+TEST_F_IN_EVERY_WORLD(BadInput, WindVelocity) {
   expectParametersRefused<wetcloth::Wind>({btVector3(kScalarNaN, 0, 0)}, "velocity", "nan");
   expectParametersRefused<wetcloth::Wind>({btVector3(0, 0, btScalar(-kInfinity))}, "velocity", "-inf");
   wetcloth::Wind& wind = cloth.add<wetcloth::Wind>({btVector3(1, 2, 3)});
@@ -107,7 +107,7 @@ TEST_P(BadInput, WindVelocity) {
   EXPECT_TRUE(wind.parameters().velocity.constant() == btVector3(1, 2, 3)) << "still the old one";
 }
 
-TEST_P(BadInput, OtherParametersOfWind) {
+TEST_F_IN_EVERY_WORLD(BadInput, OtherParametersOfWind) {
   const auto refused = [this](double wetcloth::Wind::Parameters::*field, const std::string& name) {
     for (const auto& [value, text] :
          {std::pair<double, std::string>{-1.5, "-1.5"}, {kNaN, "nan"}, {kInfinity, "inf"}}) {
@@ -123,7 +123,7 @@ TEST_P(BadInput, OtherParametersOfWind) {
   refused(&wetcloth::Wind::Parameters::paperForce, "paperForce");
 }
 
-TEST_P(BadInput, Springs) {
+TEST_F_IN_EVERY_WORLD(BadInput, Springs) {
   using wetcloth::HookeSprings;
   expectParametersRefused<HookeSprings>(springsOf(-5.5), "stiffness", "-5.5");
   expectParametersRefused<HookeSprings>(springsOf(0), "stiffness", "0");
@@ -144,7 +144,7 @@ TEST_P(BadInput, Springs) {
   expectParametersRefused<HookeSprings>(springs, "perLink", "nan");
 }
 
-TEST_P(BadInput, WaterSetByHand) {
+TEST_F_IN_EVERY_WORLD(BadInput, WaterSetByHand) {
   expectRefused([&] { cloth.setSaturation(1.5); }, "saturation", "1.5");
   expectRefused([&] { cloth.setSaturation(-0.5); }, "saturation", "-0.5");
   expectRefused([&] { cloth.setSaturation(kNaN); }, "saturation", "nan");
@@ -156,7 +156,7 @@ TEST_P(BadInput, WaterSetByHand) {
   expectRefused([&] { cloth.setHeld(held); }, "11", "inf");
 }
 
-TEST_P(BadInput, NodesThatAreNotThere) {
+TEST_F_IN_EVERY_WORLD(BadInput, NodesThatAreNotThere) {
   for (const int node : {-1, 16, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
     EXPECT_THROW(cloth.saturation(node), std::out_of_range) << node;
     EXPECT_THROW(cloth.held(node), std::out_of_range) << node;
@@ -167,7 +167,7 @@ TEST_P(BadInput, NodesThatAreNotThere) {
   }
 }
 
-TEST_P(BadInput, Bodies) {
+TEST_F_IN_EVERY_WORLD(BadInput, Bodies) {
   EXPECT_NE(refusalOf([&] { wet.add(nullptr); }), "");
   EXPECT_NE(refusalOf([&] { wet.add(scene.body()); }), "") << "added twice";
   const std::unique_ptr<btSoftBody> stranger = squarePatch(3).build(scene.bullet().info());
@@ -182,7 +182,7 @@ TEST_P(BadInput, Bodies) {
   EXPECT_EQ(wet.find(scene.body()), &cloth);
 }
 
-TEST_P(BadInput, MassesThatAreNotFinite) {
+TEST_F_IN_EVERY_WORLD(BadInput, MassesThatAreNotFinite) {
   for (const btScalar bad : {kScalarNaN, std::numeric_limits<btScalar>::infinity(), btScalar(-2)}) {
     BodyScene other(GetParam(), squarePatch(3));
     other.body().m_nodes[4].m_im = bad;
@@ -193,7 +193,7 @@ TEST_P(BadInput, MassesThatAreNotFinite) {
   }
 }
 
-TEST_P(BadInput, FabricFields) {
+TEST_F_IN_EVERY_WORLD(BadInput, FabricFields) {
   const auto refused = [](double wetcloth::Fabric::*field, const std::string& name, bool zeroIsBad) {
     std::vector<std::pair<double, std::string>> values = {{-1.5, "-1.5"}, {kNaN, "nan"}, {kInfinity, "inf"}};
     if (zeroIsBad) values.push_back({0, "0"});
@@ -214,8 +214,6 @@ TEST_P(BadInput, FabricFields) {
   refused(&wetcloth::Fabric::arealDensity, "arealDensity", true);
   refused(&wetcloth::Fabric::dryRoughness, "dryRoughness", false);
 }
-
-WETCLOTH_IN_EVERY_WORLD(BadInput);
 
 }  // namespace
 }  // namespace wetcloth_test::bad_input_test

@@ -22,9 +22,7 @@ const double kNaN = std::numeric_limits<double>::quiet_NaN();
 const btScalar kScalarNaN = std::numeric_limits<btScalar>::quiet_NaN();
 const btScalar kScalarInfinity = std::numeric_limits<btScalar>::infinity();
 
-using BadValuesInTheStep = InEveryWorld;
-
-TEST_P(BadValuesInTheStep, AnExposureFunctionIsClamped) {
+TEST_IN_EVERY_WORLD(BadValuesInTheStep, AnExposureFunctionIsClamped) {
   struct Case {
     double value;
     double effective;
@@ -40,7 +38,7 @@ TEST_P(BadValuesInTheStep, AnExposureFunctionIsClamped) {
   }
 }
 
-TEST_P(BadValuesInTheStep, AWindFunctionThatIsNotFiniteIsNoWind) {
+TEST_IN_EVERY_WORLD(BadValuesInTheStep, AWindFunctionThatIsNotFiniteIsNoWind) {
   for (const btScalar bad : {kScalarNaN, kScalarInfinity, -kScalarInfinity}) {
     BodyScene scene(GetParam(), sailPatch(4), btVector3(0, 0, 0));
     wetcloth::WetClothWorld wet(scene.world());
@@ -55,7 +53,7 @@ TEST_P(BadValuesInTheStep, AWindFunctionThatIsNotFiniteIsNoWind) {
 }
 
 // An application's function that throws is a failing effect like any other.
-TEST_P(BadValuesInTheStep, AFunctionThatThrowsTakesItsEffectAway) {
+TEST_IN_EVERY_WORLD(BadValuesInTheStep, AFunctionThatThrowsTakesItsEffectAway) {
   BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   int messages = 0;
@@ -84,7 +82,7 @@ std::unique_ptr<btSoftBody> degenerate(btSoftBodyWorldInfo& info) {
   return body;
 }
 
-TEST_P(BadValuesInTheStep, ATriangleWithoutAreaFeelsNothing) {
+TEST_IN_EVERY_WORLD(BadValuesInTheStep, ATriangleWithoutAreaFeelsNothing) {
   for (const auto law : {wetcloth::Wind::Law::quadratic, wetcloth::Wind::Law::linear, wetcloth::Wind::Law::paper}) {
     BodyScene scene(GetParam(), degenerate, btVector3(0, 0, 0));
     wetcloth::WetClothWorld wet(scene.world());
@@ -107,7 +105,7 @@ TEST_P(BadValuesInTheStep, ATriangleWithoutAreaFeelsNothing) {
   }
 }
 
-TEST_P(BadValuesInTheStep, AStepWithoutLengthIsIgnored) {
+TEST_IN_EVERY_WORLD(BadValuesInTheStep, AStepWithoutLengthIsIgnored) {
   BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(1, 1)));
@@ -127,7 +125,7 @@ TEST_P(BadValuesInTheStep, AStepWithoutLengthIsIgnored) {
 }
 
 // Through Bullet, which steps backwards when asked to: no water leaves or comes, and nothing breaks.
-TEST_P(BadValuesInTheStep, ThroughBulletTooAStepBackwardsAddsNoWater) {
+TEST_IN_EVERY_WORLD(BadValuesInTheStep, ThroughBulletTooAStepBackwardsAddsNoWater) {
   BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(1, 1)));
@@ -141,8 +139,6 @@ TEST_P(BadValuesInTheStep, ThroughBulletTooAStepBackwardsAddsNoWater) {
   EXPECT_GT(cloth.ledger().held, before);
   EXPECT_TRUE(isFinite(scene.body()));
 }
-
-WETCLOTH_IN_EVERY_WORLD(BadValuesInTheStep);
 
 }  // namespace
 }  // namespace wetcloth_test::bad_values_in_the_step_test

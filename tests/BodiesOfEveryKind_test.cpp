@@ -40,9 +40,7 @@ struct Anchored {
   RigidBody box;
 };
 
-using BodiesOfEveryKind = testing::TestWithParam<WorldKind>;
-
-TEST_P(BodiesOfEveryKind, AnAnchoredClothRunsLikeOneBuiltHeavy) {
+TEST_IN_POSITION_BASED_WORLDS(BodiesOfEveryKind, AnAnchoredClothRunsLikeOneBuiltHeavy) {
   Anchored wetted(GetParam(), false);
   Anchored fresh(GetParam(), true);
   Anchored dry(GetParam(), false);
@@ -57,9 +55,6 @@ TEST_P(BodiesOfEveryKind, AnAnchoredClothRunsLikeOneBuiltHeavy) {
   EXPECT_LT(double((wetted.box.body().getLinearVelocity() - fresh.box.body().getLinearVelocity()).length()), tolerance);
   EXPECT_GT(largestDifference(stateOf(dry.scene.body()), expected), 10 * tolerance) << "masses matter here";
 }
-
-INSTANTIATE_TEST_SUITE_P(, BodiesOfEveryKind, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
-                         [](const auto& test) { return std::string(nameOf(test.param)); });
 
 // Five tetrahedra in a cube, in TetGen's format.
 const char* const kNodes =
@@ -79,9 +74,7 @@ std::unique_ptr<btSoftBody> cube(btSoftBodyWorldInfo& info, bool heavy) {
   return body;
 }
 
-using Tetrahedra = InEveryWorld;
-
-TEST_P(Tetrahedra, RunLikeABodyBuiltHeavy) {
+TEST_IN_EVERY_WORLD(Tetrahedra, RunLikeABodyBuiltHeavy) {
   const auto make = [](bool heavy) { return [heavy](btSoftBodyWorldInfo& info) { return cube(info, heavy); }; };
   BodyScene wetted(GetParam(), make(false));
   BodyScene fresh(GetParam(), make(true));
@@ -106,7 +99,7 @@ TEST_P(Tetrahedra, RunLikeABodyBuiltHeavy) {
   EXPECT_GT(largestDifference(stateOf(dry.body()), expected), 10 * tolerance) << "masses matter here";
 }
 
-TEST_P(Tetrahedra, CanAbsorbAndFeelWind) {
+TEST_IN_EVERY_WORLD(Tetrahedra, CanAbsorbAndFeelWind) {
   BodyScene scene(GetParam(), [](btSoftBodyWorldInfo& info) { return cube(info, false); });
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& wetCloth = wet.add(scene.body(), fabricOf(1, 1));
@@ -119,8 +112,6 @@ TEST_P(Tetrahedra, CanAbsorbAndFeelWind) {
     EXPECT_GT(meanVelocity(scene.body()).z(), 0.1);
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(Tetrahedra);
 
 }  // namespace
 }  // namespace wetcloth_test::bodies_of_every_kind_test

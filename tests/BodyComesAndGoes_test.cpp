@@ -22,10 +22,8 @@ void addEverything(wetcloth::WetCloth& cloth) {
   cloth.add<wetcloth::HookeSprings>(springsOf(200, 5));
 }
 
-using BodyComesAndGoes = InEveryWorld;
-
 // Memory checkers watch this one.
-TEST_P(BodyComesAndGoes, DeletedWhileWeKnowIt) {
+TEST_IN_EVERY_WORLD(BodyComesAndGoes, DeletedWhileWeKnowIt) {
   BodyScene scene(GetParam(), hangingPatch(4));
   std::vector<std::string> messages;
   wetcloth::WetClothWorld wet(scene.world());
@@ -37,7 +35,7 @@ TEST_P(BodyComesAndGoes, DeletedWhileWeKnowIt) {
   EXPECT_EQ(messages.size(), 1u);
 }
 
-TEST_P(BodyComesAndGoes, DeletedAndWeLeaveWithoutAnotherStep) {
+TEST_IN_EVERY_WORLD(BodyComesAndGoes, DeletedAndWeLeaveWithoutAnotherStep) {
   BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog({});
@@ -47,7 +45,7 @@ TEST_P(BodyComesAndGoes, DeletedAndWeLeaveWithoutAnotherStep) {
 }
 
 // Only the world can tell that a body was deleted: it is asked before the body is.
-TEST_P(BodyComesAndGoes, DeletedAndWeAreAskedWithoutAnotherStep) {
+TEST_IN_EVERY_WORLD(BodyComesAndGoes, DeletedAndWeAreAskedWithoutAnotherStep) {
   for (const bool byDetach : {true, false}) {
     BodyScene scene(GetParam(), hangingPatch(4));
     wetcloth::WetClothWorld wet(scene.world());
@@ -65,7 +63,7 @@ TEST_P(BodyComesAndGoes, DeletedAndWeAreAskedWithoutAnotherStep) {
   }
 }
 
-TEST_P(BodyComesAndGoes, DeletedWithOthersLeftBehind) {
+TEST_IN_EVERY_WORLD(BodyComesAndGoes, DeletedWithOthersLeftBehind) {
   BulletWorld bullet(GetParam());
   std::unique_ptr<btSoftBody> gone = hangingPatch(4).build(bullet.info());
   wetcloth::ClothPatch patch = hangingPatch(4);
@@ -89,7 +87,7 @@ TEST_P(BodyComesAndGoes, DeletedWithOthersLeftBehind) {
   bullet.remove(*stays);
 }
 
-TEST_P(BodyComesAndGoes, RemovedAndAddedAgainItGoesOn) {
+TEST_IN_EVERY_WORLD(BodyComesAndGoes, RemovedAndAddedAgainItGoesOn) {
   BodyScene scene(GetParam(), hangingPatch(4));
   std::vector<std::string> messages;
   wetcloth::WetClothWorld wet(scene.world());
@@ -109,7 +107,7 @@ TEST_P(BodyComesAndGoes, RemovedAndAddedAgainItGoesOn) {
 }
 
 // The right order: forget the cloth, then delete the body.
-TEST_P(BodyComesAndGoes, ForgottenThenDeleted) {
+TEST_IN_EVERY_WORLD(BodyComesAndGoes, ForgottenThenDeleted) {
   BodyScene scene(GetParam(), hangingPatch(4));
   int messages = 0;
   wetcloth::WetClothWorld wet(scene.world());
@@ -122,8 +120,6 @@ TEST_P(BodyComesAndGoes, ForgottenThenDeleted) {
   EXPECT_TRUE(wet.cloths().empty());
   EXPECT_EQ(messages, 0);
 }
-
-WETCLOTH_IN_EVERY_WORLD(BodyComesAndGoes);
 
 }  // namespace
 }  // namespace wetcloth_test::body_comes_and_goes_test

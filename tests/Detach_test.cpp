@@ -53,9 +53,7 @@ struct Parts {
   wetcloth::WetCloth* cloth = nullptr;
 };
 
-using Detach = InEveryWorld;
-
-TEST_P(Detach, GivesBackWhatEffectsChanged) {
+TEST_IN_EVERY_WORLD(Detach, GivesBackWhatEffectsChanged) {
   Parts parts(GetParam());
   EXPECT_NE(parts.body->m_links[0].m_material, parts.body->m_materials[0]);
   parts.wet->detach();
@@ -67,7 +65,7 @@ TEST_P(Detach, GivesBackWhatEffectsChanged) {
   EXPECT_TRUE(isFinite(*parts.body));
 }
 
-TEST_P(Detach, AfterwardsTheObjectDoesNothing) {
+TEST_IN_EVERY_WORLD(Detach, AfterwardsTheObjectDoesNothing) {
   Parts parts(GetParam());
   parts.wet->detach();
   const double time = parts.wet->time();
@@ -83,7 +81,7 @@ TEST_P(Detach, AfterwardsTheObjectDoesNothing) {
   EXPECT_THROW(parts.wet->restore(stream), std::invalid_argument);
 }
 
-TEST_P(Detach, ThenTheWorldMayHaveAnother) {
+TEST_IN_EVERY_WORLD(Detach, ThenTheWorldMayHaveAnother) {
   Parts parts(GetParam());
   parts.wet->detach();
   wetcloth::WetClothWorld another(parts.bullet->world());
@@ -93,7 +91,7 @@ TEST_P(Detach, ThenTheWorldMayHaveAnother) {
 }
 
 // exitPhysics() of Bullet's demos deletes the bodies and the world; members go later.
-TEST_P(Detach, ThenWorldAndBodiesGoInAnyOrder) {
+TEST_IN_EVERY_WORLD(Detach, ThenWorldAndBodiesGoInAnyOrder) {
   for (const bool bodyFirst : {true, false}) {
     Parts parts(GetParam());
     parts.wet->detach();
@@ -104,7 +102,7 @@ TEST_P(Detach, ThenWorldAndBodiesGoInAnyOrder) {
   }
 }
 
-TEST_P(Detach, IsNotNeededWithoutCloths) {
+TEST_IN_EVERY_WORLD(Detach, IsNotNeededWithoutCloths) {
   for (const bool bodyFirst : {true, false}) {
     Parts parts(GetParam());
     parts.wet->remove(*parts.body);
@@ -117,7 +115,7 @@ TEST_P(Detach, IsNotNeededWithoutCloths) {
 
 // --- the world went first, and a body that is there is handed over --------------------------------------------------
 
-TEST_P(Detach, AfterTheWorldWasDeletedRemoveGivesTheBodyBackWhatWasIts) {
+TEST_IN_EVERY_WORLD(Detach, AfterTheWorldWasDeletedRemoveGivesTheBodyBackWhatWasIts) {
   Parts parts(GetParam());
   ASSERT_FALSE(parts.hasItsOwnMaterials());
   parts.deleteWorldBeforeAll();
@@ -131,7 +129,7 @@ TEST_P(Detach, AfterTheWorldWasDeletedRemoveGivesTheBodyBackWhatWasIts) {
 }
 
 // add() is told of the deletion as remove() is; from then on nothing touches the world, or another body.
-TEST_P(Detach, AfterTheWorldWasSeenToBeDeletedReadingGoesOnAndChangingThrows) {
+TEST_IN_EVERY_WORLD(Detach, AfterTheWorldWasSeenToBeDeletedReadingGoesOnAndChangingThrows) {
   for (const bool byDetach : {true, false}) {
     Parts parts(GetParam());
     const double saturation = parts.cloth->saturation(3);
@@ -163,7 +161,7 @@ int applicationCalls = 0;
 void onPreTick(btDynamicsWorld*, btScalar) { ++applicationCalls; }
 
 // We cannot know that the world is there, so the slot is given back when it calls.
-TEST_P(Detach, WithoutClothsTheApplicationsCallbackGoesOn) {
+TEST_IN_EVERY_WORLD(Detach, WithoutClothsTheApplicationsCallbackGoesOn) {
   BulletWorld bullet(GetParam());
   applicationCalls = 0;
   bullet.world().setInternalTickCallback(onPreTick, nullptr, true);
@@ -174,8 +172,6 @@ TEST_P(Detach, WithoutClothsTheApplicationsCallbackGoesOn) {
   bullet.step(1);
   EXPECT_EQ(applicationCalls, 3);
 }
-
-WETCLOTH_IN_EVERY_WORLD(Detach);
 
 }  // namespace
 }  // namespace wetcloth_test::detach_test

@@ -24,9 +24,7 @@ void addRecorder(wetcloth::WetCloth& cloth, Stage stage, const std::string& name
       cloth, [name, &names](wetcloth::WetCloth&, const wetcloth::Step&) { names.push_back(name); }, stage);
 }
 
-using EffectOrder = InEveryWorld;
-
-TEST_P(EffectOrder, IsThatOfTheStagesWhateverTheOrderOfAdding) {
+TEST_IN_EVERY_WORLD(EffectOrder, IsThatOfTheStagesWhateverTheOrderOfAdding) {
   const std::vector<std::pair<Stage, std::string>> inOrder = {
       {Stage::sources, "sources"},   {Stage::transport, "transport"}, {Stage::losses, "losses"},
       {Stage::material, "material"}, {Stage::forces, "forces"},       {Stage::elasticity, "elasticity"}};
@@ -44,7 +42,7 @@ TEST_P(EffectOrder, IsThatOfTheStagesWhateverTheOrderOfAdding) {
   }
 }
 
-TEST_P(EffectOrder, WithinAStageIsThatOfAdding) {
+TEST_IN_EVERY_WORLD(EffectOrder, WithinAStageIsThatOfAdding) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
@@ -55,7 +53,7 @@ TEST_P(EffectOrder, WithinAStageIsThatOfAdding) {
 }
 
 // Masses are written between `material` and `forces`: before, the old mass; after, the new one.
-TEST_P(EffectOrder, MassesAreCommittedBetweenMaterialAndForces) {
+TEST_IN_EVERY_WORLD(EffectOrder, MassesAreCommittedBetweenMaterialAndForces) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
@@ -73,7 +71,7 @@ TEST_P(EffectOrder, MassesAreCommittedBetweenMaterialAndForces) {
 }
 
 // Order of adding Absorption and Wind is of no consequence, to the last bit.
-TEST_P(EffectOrder, HasNoInfluenceOnTheResult) {
+TEST_IN_EVERY_WORLD(EffectOrder, HasNoInfluenceOnTheResult) {
   std::vector<btScalar> results[2];
   for (const bool windFirst : {false, true}) {
     BodyScene scene(GetParam(), hangingPatch(5));
@@ -87,8 +85,6 @@ TEST_P(EffectOrder, HasNoInfluenceOnTheResult) {
   }
   EXPECT_TRUE(sameBits(results[0], results[1]));
 }
-
-WETCLOTH_IN_EVERY_WORLD(EffectOrder);
 
 // An effect of somebody else's, as short as can be: a sponge below y = 0 that wets what it touches.
 class Sponge : public wetcloth::Effect {
@@ -114,9 +110,7 @@ class Sponge : public wetcloth::Effect {
   Parameters m_parameters;
 };
 
-using OwnEffect = InEveryWorld;
-
-TEST_P(OwnEffect, WorksLikeOneOfOurs) {
+TEST_IN_EVERY_WORLD(OwnEffect, WorksLikeOneOfOurs) {
   BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(1, 1)));
@@ -137,7 +131,7 @@ class Refuses : public wetcloth::Effect {
   void apply(wetcloth::WetCloth&, const wetcloth::Step&) override { FAIL(); }
 };
 
-TEST_P(OwnEffect, ThatRefusesABodyIsNotAdded) {
+TEST_IN_EVERY_WORLD(OwnEffect, ThatRefusesABodyIsNotAdded) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
@@ -148,7 +142,7 @@ TEST_P(OwnEffect, ThatRefusesABodyIsNotAdded) {
 }
 
 // The contract says that apply() never throws; one that does is removed, with a message, and the rest goes on.
-TEST_P(OwnEffect, ThatThrowsIsRemovedAndTheWorldGoesOn) {
+TEST_IN_EVERY_WORLD(OwnEffect, ThatThrowsIsRemovedAndTheWorldGoesOn) {
   for (const bool standard : {true, false}) {
     BodyScene scene(GetParam());
     wetcloth::WetClothWorld wet(scene.world());
@@ -194,7 +188,7 @@ class FailsAndGivesBack : public wetcloth::Effect {
   bool& m_gaveBack;
 };
 
-TEST_P(OwnEffect, ThatFailsIsDetachedBeforeItIsRemoved) {
+TEST_IN_EVERY_WORLD(OwnEffect, ThatFailsIsDetachedBeforeItIsRemoved) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wet.setLog({});
@@ -215,7 +209,7 @@ class DoesNotGiveBack : public wetcloth::Effect {
   void apply(wetcloth::WetCloth&, const wetcloth::Step&) override {}
 };
 
-TEST_P(OwnEffect, ThatThrowsAtTheEndIsReported) {
+TEST_IN_EVERY_WORLD(OwnEffect, ThatThrowsAtTheEndIsReported) {
   BodyScene scene(GetParam());
   std::vector<std::string> messages;
   {
@@ -228,7 +222,7 @@ TEST_P(OwnEffect, ThatThrowsAtTheEndIsReported) {
 }
 
 // A push is a velocity that Bullet can use: never NaN, never on a pinned node.
-TEST_P(OwnEffect, CannotPushNonsense) {
+TEST_IN_EVERY_WORLD(OwnEffect, CannotPushNonsense) {
   BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
@@ -242,7 +236,7 @@ TEST_P(OwnEffect, CannotPushNonsense) {
   EXPECT_TRUE(sameBits(stateOf(scene.body()), before));
 }
 
-TEST_P(OwnEffect, ThatIsNotOursCannotBeRemoved) {
+TEST_IN_EVERY_WORLD(OwnEffect, ThatIsNotOursCannotBeRemoved) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
@@ -255,8 +249,6 @@ TEST_P(OwnEffect, ThatIsNotOursCannotBeRemoved) {
   scene.bullet().step(5);
   EXPECT_EQ(cloth.ledger().held, before);
 }
-
-WETCLOTH_IN_EVERY_WORLD(OwnEffect);
 
 }  // namespace
 }  // namespace wetcloth_test::effect_test

@@ -48,9 +48,7 @@ std::vector<btScalar> run(WorldKind kind, Use use) {
   return stateOf(scene.body());
 }
 
-using NoEffectsNoChange = InEveryWorld;
-
-TEST_P(NoEffectsNoChange, BitForBit) {
+TEST_IN_EVERY_WORLD(NoEffectsNoChange, BitForBit) {
   const std::vector<btScalar> expected = run(GetParam(), Use::plainBullet);
   EXPECT_TRUE(sameBits(run(GetParam(), Use::clothWithoutEffects), expected));
   EXPECT_TRUE(sameBits(run(GetParam(), Use::worldWithoutCloths), expected));
@@ -59,7 +57,7 @@ TEST_P(NoEffectsNoChange, BitForBit) {
 }
 
 // The scene is worth comparing: the cloth has met something on its way down.
-TEST_P(NoEffectsNoChange, InASceneWithCollisions) {
+TEST_IN_EVERY_WORLD(NoEffectsNoChange, InASceneWithCollisions) {
   const std::vector<btScalar> state = run(GetParam(), Use::plainBullet);
   double lowest = HUGE_VAL;
   for (std::size_t i = 2; i < state.size(); i += 6) lowest = std::min(lowest, double(state[i]));
@@ -67,7 +65,7 @@ TEST_P(NoEffectsNoChange, InASceneWithCollisions) {
 }
 
 // Nothing on the body itself is changed by coming and going, its masses included.
-TEST_P(NoEffectsNoChange, OnTheBodyItself) {
+TEST_IN_EVERY_WORLD(NoEffectsNoChange, OnTheBodyItself) {
   BodyScene scene(GetParam(), hangingPatch(5));
   scene.bullet().step(5);
   const int links = scene.body().m_links.size();
@@ -87,8 +85,6 @@ TEST_P(NoEffectsNoChange, OnTheBodyItself) {
   EXPECT_EQ(scene.body().m_materials.size(), materials);
   EXPECT_FALSE(scene.body().m_bUpdateRtCst);
 }
-
-WETCLOTH_IN_EVERY_WORLD(NoEffectsNoChange);
 
 }  // namespace
 }  // namespace wetcloth_test::no_effects_no_change_test

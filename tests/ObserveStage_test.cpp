@@ -54,9 +54,7 @@ class TwoCloths {
   wetcloth::WetCloth& second;
 };
 
-using ObserveStage = InEveryWorld;
-
-TEST_P(ObserveStage, ComesBeforeAllOtherStagesOfAllCloths) {
+TEST_IN_EVERY_WORLD(ObserveStage, ComesBeforeAllOtherStagesOfAllCloths) {
   TwoCloths cloths(GetParam());
   Names names;
   addRecorder(cloths.first, Stage::elasticity, "first elasticity", names);
@@ -68,7 +66,7 @@ TEST_P(ObserveStage, ComesBeforeAllOtherStagesOfAllCloths) {
   EXPECT_EQ(names, (Names{"first observes", "second observes", "first sources", "first elasticity", "second sources"}));
 }
 
-TEST_P(ObserveStage, SeesTheClothAsTheLastSubstepLeftIt) {
+TEST_IN_EVERY_WORLD(ObserveStage, SeesTheClothAsTheLastSubstepLeftIt) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
@@ -94,7 +92,7 @@ TEST_P(ObserveStage, SeesTheClothAsTheLastSubstepLeftIt) {
   EXPECT_EQ(looks, 5);
 }
 
-TEST_P(ObserveStage, SeesABodyThatWasCutAsItIsNow) {
+TEST_IN_EVERY_WORLD(ObserveStage, SeesABodyThatWasCutAsItIsNow) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wet.setLog(nullptr);
@@ -108,7 +106,7 @@ TEST_P(ObserveStage, SeesABodyThatWasCutAsItIsNow) {
   EXPECT_EQ(nodes, static_cast<std::size_t>(scene.body().m_nodes.size()));
 }
 
-TEST_P(ObserveStage, AnObserverThatThrowsIsRemoved) {
+TEST_IN_EVERY_WORLD(ObserveStage, AnObserverThatThrowsIsRemoved) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   Names messages;
@@ -122,8 +120,6 @@ TEST_P(ObserveStage, AnObserverThatThrowsIsRemoved) {
   ASSERT_EQ(messages.size(), 1u);
   EXPECT_NE(messages[0].find("seen enough"), std::string::npos);
 }
-
-WETCLOTH_IN_EVERY_WORLD(ObserveStage);
 
 // Only the deformable world lets a soft body sleep.
 TEST(ObserveStageAsleep, RunsWhileForcesRest) {

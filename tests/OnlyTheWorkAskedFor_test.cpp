@@ -15,8 +15,6 @@ namespace wetcloth_test::only_the_work_asked_for_test {
 
 namespace {
 
-using OnlyTheWorkAskedFor = InEveryWorld;
-
 // 1 s is 100 time constants: what is missing then is below the rounding of a double.
 struct Soaked {
   explicit Soaked(WorldKind kind, wetcloth::Absorption::Law law = wetcloth::Absorption::Law::exponential)
@@ -33,7 +31,7 @@ struct Soaked {
   wetcloth::Absorption* soak = nullptr;
 };
 
-TEST_P(OnlyTheWorkAskedFor, IsNoneAfterSaturation) {
+TEST_IN_EVERY_WORLD(OnlyTheWorkAskedFor, IsNoneAfterSaturation) {
   for (const auto law : {wetcloth::Absorption::Law::exponential, wetcloth::Absorption::Law::forwardEuler,
                          wetcloth::Absorption::Law::ramp}) {
     Soaked soaked(GetParam(), law);
@@ -49,7 +47,7 @@ TEST_P(OnlyTheWorkAskedFor, IsNoneAfterSaturation) {
   }
 }
 
-TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenWaterLeft) {
+TEST_IN_EVERY_WORLD(OnlyTheWorkAskedFor, BeginsAgainWhenWaterLeft) {
   Soaked soaked(GetParam());
   soaked.scene.bullet().step(10);
   bool once = true;
@@ -66,7 +64,7 @@ TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenWaterLeft) {
   EXPECT_NEAR(soaked.cloth.saturation(7), 1, 1e-12);
 }
 
-TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenWaterWasSetByHand) {
+TEST_IN_EVERY_WORLD(OnlyTheWorkAskedFor, BeginsAgainWhenWaterWasSetByHand) {
   Soaked soaked(GetParam());
   soaked.scene.bullet().step(10);
   soaked.cloth.setSaturation(0.25);
@@ -74,7 +72,7 @@ TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenWaterWasSetByHand) {
   EXPECT_NEAR(soaked.cloth.meanSaturation(), 1, 1e-12);
 }
 
-TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenTheExposureChanged) {
+TEST_IN_EVERY_WORLD(OnlyTheWorkAskedFor, BeginsAgainWhenTheExposureChanged) {
   BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(1, 0.01)));
@@ -86,7 +84,7 @@ TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenTheExposureChanged) {
   EXPECT_NEAR(cloth.meanSaturation(), 1, 1e-12);
 }
 
-TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenTheApplicationMadeANodeHeavier) {
+TEST_IN_EVERY_WORLD(OnlyTheWorkAskedFor, BeginsAgainWhenTheApplicationMadeANodeHeavier) {
   Soaked soaked(GetParam());
   soaked.scene.bullet().step(10);
   soaked.scene.body().setMass(3, btScalar(0.5));
@@ -97,7 +95,7 @@ TEST_P(OnlyTheWorkAskedFor, BeginsAgainWhenTheApplicationMadeANodeHeavier) {
 }
 
 // Wind writes velocities only.
-TEST_P(OnlyTheWorkAskedFor, WindTouchesNoMasses) {
+TEST_IN_EVERY_WORLD(OnlyTheWorkAskedFor, WindTouchesNoMasses) {
   BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
@@ -110,7 +108,7 @@ TEST_P(OnlyTheWorkAskedFor, WindTouchesNoMasses) {
 }
 
 // What is set by hand is there at once, without a step.
-TEST_P(OnlyTheWorkAskedFor, IsDoneAtOnceWhenWaterIsSetByHand) {
+TEST_IN_EVERY_WORLD(OnlyTheWorkAskedFor, IsDoneAtOnceWhenWaterIsSetByHand) {
   BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(3, 1)));
@@ -124,8 +122,6 @@ TEST_P(OnlyTheWorkAskedFor, IsDoneAtOnceWhenWaterIsSetByHand) {
   EXPECT_TRUE(sameBits(stateOf(scene.body()), before)) << "velocities and places stay";
   EXPECT_FALSE(scene.body().m_bUpdateRtCst);
 }
-
-WETCLOTH_IN_EVERY_WORLD(OnlyTheWorkAskedFor);
 
 }  // namespace
 }  // namespace wetcloth_test::only_the_work_asked_for_test

@@ -24,15 +24,16 @@ void refine(btSoftBody& body) {
   body.refine(&plane, btScalar(0.001), true);
 }
 
-class ReadingAfterACut : public InEveryWorld {
+class ReadingAfterACut {
  protected:
+  ReadingAfterACut() { wet.setLog({}); }
+
   BodyScene scene{GetParam(), hangingPatch(6)};
   wetcloth::WetClothWorld wet{scene.world()};
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
-  void SetUp() override { wet.setLog({}); }
 };
 
-TEST_P(ReadingAfterACut, IsOfAllNodesAtOnce) {
+TEST_F_IN_EVERY_WORLD(ReadingAfterACut, IsOfAllNodesAtOnce) {
   cloth.add<wetcloth::Absorption>();
   scene.bullet().step(20);
   const double held = cloth.ledger().held;
@@ -52,7 +53,7 @@ TEST_P(ReadingAfterACut, IsOfAllNodesAtOnce) {
   EXPECT_TRUE(isFinite(scene.body()));
 }
 
-TEST_P(ReadingAfterACut, FillsAVertexBuffer) {
+TEST_F_IN_EVERY_WORLD(ReadingAfterACut, FillsAVertexBuffer) {
   cloth.setSaturation(0.5);
   refine(scene.body());
   std::vector<float> vertices(10 * std::size_t(cloth.nodeCount()));
@@ -61,7 +62,7 @@ TEST_P(ReadingAfterACut, FillsAVertexBuffer) {
   EXPECT_EQ(vertices.size(), 10 * std::size_t(scene.body().m_nodes.size()));
 }
 
-TEST_P(ReadingAfterACut, WorksOnAClothWithoutEffects) {
+TEST_F_IN_EVERY_WORLD(ReadingAfterACut, WorksOnAClothWithoutEffects) {
   refine(scene.body());
   scene.bullet().step(3);
   EXPECT_EQ(cloth.nodeCount(), scene.body().m_nodes.size());
@@ -69,7 +70,7 @@ TEST_P(ReadingAfterACut, WorksOnAClothWithoutEffects) {
 }
 
 // Nothing is written into a cloth that is dry and has no effects, cut or not.
-TEST_P(ReadingAfterACut, LeavesADryClothWithoutEffectsAlone) {
+TEST_F_IN_EVERY_WORLD(ReadingAfterACut, LeavesADryClothWithoutEffectsAlone) {
   BodyScene plain(GetParam(), hangingPatch(6));
   plain.bullet().step(3);
   scene.bullet().step(3);
@@ -82,7 +83,7 @@ TEST_P(ReadingAfterACut, LeavesADryClothWithoutEffectsAlone) {
 }
 
 // The messages of the log may read, too.
-TEST_P(ReadingAfterACut, MayBeDoneInTheLog) {
+TEST_F_IN_EVERY_WORLD(ReadingAfterACut, MayBeDoneInTheLog) {
   int nodes = 0;
   wet.setLog([&](const std::string&) { nodes = cloth.nodeCount(); });
   refine(scene.body());
@@ -91,14 +92,12 @@ TEST_P(ReadingAfterACut, MayBeDoneInTheLog) {
 }
 
 // Of a body that is gone, what was known last is still there to read.
-TEST_P(ReadingAfterACut, DoesNotLookAtABodyThatIsGone) {
+TEST_F_IN_EVERY_WORLD(ReadingAfterACut, DoesNotLookAtABodyThatIsGone) {
   cloth.setSaturation(0.5);
   scene.deleteBody();
   EXPECT_EQ(cloth.nodeCount(), 36);
   EXPECT_NEAR(cloth.saturation(7), 0.5, 1e-12);
 }
-
-WETCLOTH_IN_EVERY_WORLD(ReadingAfterACut);
 
 }  // namespace
 }  // namespace wetcloth_test::reading_after_a_cut_test

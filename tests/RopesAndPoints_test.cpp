@@ -37,9 +37,7 @@ std::string messageOfAdding(wetcloth::WetCloth& cloth, typename E::Parameters pa
   return "";
 }
 
-using RopesAndPoints = InEveryWorld;
-
-TEST_P(RopesAndPoints, ARopeAbsorbs) {
+TEST_IN_EVERY_WORLD(RopesAndPoints, ARopeAbsorbs) {
   BodyScene scene(GetParam(), rope);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 1));
@@ -52,7 +50,7 @@ TEST_P(RopesAndPoints, ARopeAbsorbs) {
   EXPECT_TRUE(isFinite(scene.body()));
 }
 
-TEST_P(RopesAndPoints, WindSaysThatARopeHasNoFaces) {
+TEST_IN_EVERY_WORLD(RopesAndPoints, WindSaysThatARopeHasNoFaces) {
   BodyScene scene(GetParam(), rope);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -63,7 +61,7 @@ TEST_P(RopesAndPoints, WindSaysThatARopeHasNoFaces) {
 }
 
 // A heavy end on springs: extension m g / k, each spring carries what hangs below it.
-TEST_P(RopesAndPoints, SpringsWorkOnARope) {
+TEST_IN_EVERY_WORLD(RopesAndPoints, SpringsWorkOnARope) {
   constexpr double k = 5000;
   BodyScene scene(GetParam(), rope);
   wetcloth::WetClothWorld wet(scene.world());
@@ -80,7 +78,7 @@ TEST_P(RopesAndPoints, SpringsWorkOnARope) {
   EXPECT_NEAR(-double(scene.body().m_nodes[10].m_x.y()), expected, 0.05 * (expected - 1));
 }
 
-TEST_P(RopesAndPoints, SpringsSayThatPointsHaveNoLinks) {
+TEST_IN_EVERY_WORLD(RopesAndPoints, SpringsSayThatPointsHaveNoLinks) {
   BodyScene scene(GetParam(), points);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -94,7 +92,7 @@ TEST_P(RopesAndPoints, SpringsSayThatPointsHaveNoLinks) {
 }
 
 // The springs take the place of the links' own pull; removing them gives it back.
-TEST_P(RopesAndPoints, RemovedSpringsGiveTheLinksBack) {
+TEST_IN_EVERY_WORLD(RopesAndPoints, RemovedSpringsGiveTheLinksBack) {
   BodyScene scene(GetParam(), rope);
   std::vector<const btSoftBody::Material*> materials;
   for (int i = 0; i < scene.body().m_links.size(); ++i) materials.push_back(scene.body().m_links[i].m_material);
@@ -112,8 +110,6 @@ TEST_P(RopesAndPoints, RemovedSpringsGiveTheLinksBack) {
     EXPECT_NEAR(link.m_c0, (link.m_n[0]->m_im + link.m_n[1]->m_im) / link.m_material->m_kLST, 1e-6);
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(RopesAndPoints);
 
 }  // namespace
 }  // namespace wetcloth_test::ropes_and_points_test

@@ -30,15 +30,13 @@ std::vector<btScalar> run(WorldKind kind, int seed, int steps) {
   return result;
 }
 
-using WorldsAndThreads = InEveryWorld;
-
-TEST_P(WorldsAndThreads, SameRunTwiceSameBytes) {
+TEST_IN_EVERY_WORLD(WorldsAndThreads, SameRunTwiceSameBytes) {
   EXPECT_TRUE(sameBits(run(GetParam(), 1, 200), run(GetParam(), 1, 200)));
   EXPECT_FALSE(sameBits(run(GetParam(), 1, 200), run(GetParam(), 3, 200)));
 }
 
 // Worlds come and go in each thread all the time, so that attaching and detaching meet as well.
-TEST_P(WorldsAndThreads, EachThreadGetsTheResultOfASingleOne) {
+TEST_IN_EVERY_WORLD(WorldsAndThreads, EachThreadGetsTheResultOfASingleOne) {
   constexpr int kThreads = 4;
   constexpr int kRounds = 6;
   std::vector<std::vector<btScalar>> expected;
@@ -58,7 +56,7 @@ TEST_P(WorldsAndThreads, EachThreadGetsTheResultOfASingleOne) {
   for (int seed = 0; seed < kThreads; ++seed) EXPECT_TRUE(same[seed]) << seed;
 }
 
-TEST_P(WorldsAndThreads, TwoWorldsInOneThreadTakeTurns) {
+TEST_IN_EVERY_WORLD(WorldsAndThreads, TwoWorldsInOneThreadTakeTurns) {
   BodyScene one(GetParam(), squarePatch(3));
   BodyScene two(GetParam(), squarePatch(3));
   wetcloth::WetClothWorld wetOne(one.world());
@@ -72,9 +70,7 @@ TEST_P(WorldsAndThreads, TwoWorldsInOneThreadTakeTurns) {
   EXPECT_EQ(calls[1], 5);
 }
 
-WETCLOTH_IN_EVERY_WORLD(WorldsAndThreads);
-
-class SeveralCloths : public InEveryWorld {
+class SeveralCloths {
  protected:
   static std::unique_ptr<btSoftBody> place(BulletWorld& bullet, double x) {
     wetcloth::ClothPatch patch = hangingPatch(4);
@@ -86,7 +82,7 @@ class SeveralCloths : public InEveryWorld {
 };
 
 // A wet, windy neighbour far away changes nothing: the dry one runs as if alone with its like.
-TEST_P(SeveralCloths, DoNotFeelEachOther) {
+TEST_F_IN_EVERY_WORLD(SeveralCloths, DoNotFeelEachOther) {
   std::vector<btScalar> results[2];
   for (const bool withNeighbour : {false, true}) {
     BulletWorld bullet(GetParam());
@@ -111,7 +107,7 @@ TEST_P(SeveralCloths, DoNotFeelEachOther) {
   EXPECT_LT(largestDifference(results[0], results[1]), BulletWorld(GetParam()).isDeformable() ? 1e-4 : 1e-12);
 }
 
-TEST_P(SeveralCloths, AreFoundRemovedAndAddedAgain) {
+TEST_F_IN_EVERY_WORLD(SeveralCloths, AreFoundRemovedAndAddedAgain) {
   BulletWorld bullet(GetParam());
   std::unique_ptr<btSoftBody> one = place(bullet, 0);
   std::unique_ptr<btSoftBody> two = place(bullet, 100);
@@ -138,8 +134,6 @@ TEST_P(SeveralCloths, AreFoundRemovedAndAddedAgain) {
   bullet.remove(*one);
   bullet.remove(*two);
 }
-
-WETCLOTH_IN_EVERY_WORLD(SeveralCloths);
 
 }  // namespace
 }  // namespace wetcloth_test::wet_cloth_world_test

@@ -35,6 +35,7 @@ struct RunOptions : SceneOptions {
   int every = 100;         ///< steps of the scene from one checkpoint to the next
   std::string resume;      ///< file; empty: from the start
   std::string smallSteps;  ///< file; empty: none
+  bool isAlone = false;    ///< without plain Bullet beside it
 };
 
 /// The wall clock's time of a world's steps: of those that this program made, for a checkpoint holds no times.
@@ -53,12 +54,14 @@ class StepTime {
   int m_steps = 0;
 };
 
-/// Steps the scene and, beside it, the same scene in plain Bullet. The two take turns, so that whatever else the
-/// machine does slows both.
+/// Steps the scene and, unless it is to be alone, beside it the same scene in plain Bullet. The two take turns, so that
+/// whatever else the machine does slows both.
 class Run {
  public:
   /// @param steps  of the whole run
-  Run(const Scene& scene, int steps) : m_wet(scene), m_plain(scene, SceneWorld::Kind::plainBullet), m_drips(steps) {}
+  Run(const Scene& scene, int steps, bool isAlone) : m_wet(scene), m_drips(steps) {
+    if (!isAlone) m_plain.emplace(scene, SceneWorld::Kind::plainBullet);
+  }
 
   const SceneWorld& world() const { return m_wet; }
   const DripRecord& drips() const { return m_drips; }
@@ -69,14 +72,18 @@ class Run {
     file.follow(m_wet);
     m_beforeSubstep = [&file](btScalar) { file.beginSubstep(); };
   }
-  RunTimes times() const { return {m_steps, m_wetTime.meanMilliseconds(), m_plainTime.meanMilliseconds()}; }
+  RunTimes times() const {
+    RunTimes times{m_steps, m_wetTime.meanMilliseconds(), std::nullopt};
+    if (m_plain) times.plainMilliseconds = m_plainTime.meanMilliseconds();
+    return times;
+  }
 
   void step() {
     m_wetTime.step(m_wet, m_beforeSubstep);
     ++m_steps;
     requireSound(m_wet);
     m_drips.note(m_wet);
-    if (!m_plain.blowUp()) m_plainTime.step(m_plain);
+    if (m_plain && !m_plain->blowUp()) m_plainTime.step(*m_plain);
   }
 
   /// Fills in how far the run is. Throws RunError when this scene's state cannot be saved.
@@ -98,12 +105,12 @@ class Run {
     m_drips.goOnFrom(progress.at("drips"));
     std::istringstream state(checkpoint.state);
     m_wet.restore(state, m_steps);
-    m_plain.continueFrom(m_wet);
+    if (m_plain) m_plain->continueFrom(m_wet);
   }
 
  private:
   SceneWorld m_wet;
-  SceneWorld m_plain;
+  std::optional<SceneWorld> m_plain;
   DripRecord m_drips;
   StepTime m_wetTime;
   StepTime m_plainTime;
@@ -161,7 +168,7 @@ void runScene(const RunOptions& options) {
   SmallStepFile smallSteps(options.smallSteps, scene);
   if (!options.checkpoint.empty()) requireCheckpointPlace(options.checkpoint);
   const nlohmann::ordered_json identity = runIdentity(scene, steps);
-  Run run(scene, steps);
+  Run run(scene, steps, options.isAlone);
   if (!options.resume.empty()) resume(run, options.resume, identity);
   run.writeSmallSteps(smallSteps);
   stepToEnd(run, steps, options, identity, frames);
@@ -206,6 +213,9 @@ Command addRunCommand(CLI::App& line) {
   addCheckpointOptions(*app, *options, frames);
   addDuration(*app, *options);
   addSolver(*app, options->solver);
+  app->add_flag(
+      "--no-comparison", options->isAlone,
+      "Without the same scene in plain Bullet beside it: less time and memory, and bullet_ms_per_step is not told");
   app->add_option("--small-steps", options->smallSteps,
                   "File for the nodes' places after each small step of the solver wetcloth; see docs/scenes.md");
   addScenePrecision(*app, *options);

@@ -117,7 +117,7 @@ nlohmann::ordered_json RunReport::json() const {
   json["links"] = m_links;
   json["effects"] = m_effects;
   json["wall_ms_per_step"] = m_times.wetMilliseconds;
-  json["bullet_ms_per_step"] = m_times.plainMilliseconds;
+  if (m_times.plainMilliseconds) json["bullet_ms_per_step"] = *m_times.plainMilliseconds;
   json["ledger"] = {{"initial", m_ledger.initial}, {"absorbed", m_ledger.absorbed}, {"evaporated", m_ledger.evaporated},
                     {"dripped", m_ledger.dripped}, {"held", m_ledger.held},         {"run_off", m_ledger.runOff}};
   if (m_drips.isOn()) json["drips"] = m_drips.json();
@@ -148,6 +148,19 @@ nlohmann::ordered_json RunReport::json() const {
   json["max_stretch"] = m_maxStretch;
   json["state_hash"] = m_hash;
   return json;
+}
+
+std::string RunReport::timeLine() const {
+  char text[120];
+  std::snprintf(text, sizeof text, "%-15s%.3f ms per step", "time", m_times.wetMilliseconds);
+  std::string line = text;
+  if (m_times.plainMilliseconds) {
+    const double plain = *m_times.plainMilliseconds;
+    std::snprintf(text, sizeof text, "; plain Bullet %.3f ms (ratio %.2f)", plain,
+                  plain > 0 ? m_times.wetMilliseconds / plain : 0.);
+    line += text;
+  }
+  return line + "\n";
 }
 
 std::string RunReport::waterLines() const {
@@ -221,25 +234,23 @@ std::string RunReport::auditLine() const {
 
 std::string RunReport::summary() const {
   char text[1600];
-  std::snprintf(
-      text, sizeof text,
-      "%-15s%s (%s, %s, %s)\n"
-      "%-15s%d of %.4g s (%.4g s), each %d substeps of %d iterations\n"
-      "%-15s%d nodes, %d links\n"
-      "%-15s%s\n"
-      "%-15s%.3f ms per step; plain Bullet %.3f ms (ratio %.2f)\n"
-      "%s"
-      "%-15s%.2f to %.2f, mean %.2f\n"
-      "%-15s(%.3f, %.3f, %.3f) m\n"
-      "%-15sspeed %.3g m/s, link length %.3f of its rest length\n"
-      "%-15s%s\n",
-      "scene", m_scene.name.c_str(), nameOf(m_scene.world).c_str(), nameOf(ownPrecision).c_str(),
-      qualityOf(m_scene).c_str(), "steps", m_times.steps, m_scene.step, m_times.steps * m_scene.step, m_scene.substeps,
-      m_scene.iterations, "mesh", m_nodes, m_links, "effects", m_effects.empty() ? "none" : joined(m_effects).c_str(),
-      "time", m_times.wetMilliseconds, m_times.plainMilliseconds,
-      m_times.plainMilliseconds > 0 ? m_times.wetMilliseconds / m_times.plainMilliseconds : 0., waterLines().c_str(),
-      "saturation", m_saturation.min, m_saturation.max, m_saturation.mean, "centre of mass", m_moment[0] / m_mass,
-      m_moment[1] / m_mass, m_moment[2] / m_mass, "largest", m_maxSpeed, m_maxStretch, "state hash", m_hash.c_str());
+  std::snprintf(text, sizeof text,
+                "%-15s%s (%s, %s, %s)\n"
+                "%-15s%d of %.4g s (%.4g s), each %d substeps of %d iterations\n"
+                "%-15s%d nodes, %d links\n"
+                "%-15s%s\n"
+                "%s%s"
+                "%-15s%.2f to %.2f, mean %.2f\n"
+                "%-15s(%.3f, %.3f, %.3f) m\n"
+                "%-15sspeed %.3g m/s, link length %.3f of its rest length\n"
+                "%-15s%s\n",
+                "scene", m_scene.name.c_str(), nameOf(m_scene.world).c_str(), nameOf(ownPrecision).c_str(),
+                qualityOf(m_scene).c_str(), "steps", m_times.steps, m_scene.step, m_times.steps * m_scene.step,
+                m_scene.substeps, m_scene.iterations, "mesh", m_nodes, m_links, "effects",
+                m_effects.empty() ? "none" : joined(m_effects).c_str(), timeLine().c_str(), waterLines().c_str(),
+                "saturation", m_saturation.min, m_saturation.max, m_saturation.mean, "centre of mass",
+                m_moment[0] / m_mass, m_moment[1] / m_mass, m_moment[2] / m_mass, "largest", m_maxSpeed, m_maxStretch,
+                "state hash", m_hash.c_str());
   return text + solverLine() + springsLine() + steppingLine() + auditLine();
 }
 

@@ -17,8 +17,8 @@ namespace command {
 
 struct RunTimes {
   int steps = 0;
-  double wetMilliseconds = 0;    ///< per step, with the library
-  double plainMilliseconds = 0;  ///< per step, the same scene in plain Bullet
+  double wetMilliseconds = 0;               ///< per step, with the library
+  std::optional<double> plainMilliseconds;  ///< per step, the same scene in plain Bullet; none: it was not stepped
 };
 
 /// What a run came to.
@@ -38,6 +38,7 @@ class RunReport {
   void measureCloth(const wetcloth::WetCloth& cloth);
   void askSolver(const SceneWorld& world);
   bool hasGuard() const { return m_scene.clothSolver && m_scene.clothSolver->guard; }
+  std::string timeLine() const;
   std::string waterLines() const;
   std::string auditLine() const;
   std::string steppingLine() const;

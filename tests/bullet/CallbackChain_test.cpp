@@ -34,9 +34,7 @@ wetcloth::Effect& addRecorder(wetcloth::WetCloth& cloth, Application& applicatio
 
 using Calls = std::vector<std::string>;
 
-using CallbackChain = InEveryWorld;
-
-TEST_P(CallbackChain, TheApplicationComesFirst) {
+TEST_IN_EVERY_WORLD(CallbackChain, TheApplicationComesFirst) {
   BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::preTick, &application, true);
@@ -47,7 +45,7 @@ TEST_P(CallbackChain, TheApplicationComesFirst) {
   EXPECT_TRUE(wet.isHooked());
 }
 
-TEST_P(CallbackChain, DetachingPutsTheApplicationsCallbackBack) {
+TEST_IN_EVERY_WORLD(CallbackChain, DetachingPutsTheApplicationsCallbackBack) {
   BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::preTick, &application, true);
@@ -60,7 +58,7 @@ TEST_P(CallbackChain, DetachingPutsTheApplicationsCallbackBack) {
   EXPECT_EQ(application.calls, (Calls{"application", "application"}));
 }
 
-TEST_P(CallbackChain, WithoutAnApplicationsCallbackNothingIsLeftBehind) {
+TEST_IN_EVERY_WORLD(CallbackChain, WithoutAnApplicationsCallbackNothingIsLeftBehind) {
   BodyScene scene(GetParam());
   { wetcloth::WetClothWorld wet(scene.world()); }
   EXPECT_EQ(scene.world().getWorldUserInfo(), nullptr);
@@ -68,7 +66,7 @@ TEST_P(CallbackChain, WithoutAnApplicationsCallbackNothingIsLeftBehind) {
 }
 
 // The post-tick callback and the user info can be set on top of us at any time.
-TEST_P(CallbackChain, ThePostTickCallbackMayBeSetLater) {
+TEST_IN_EVERY_WORLD(CallbackChain, ThePostTickCallbackMayBeSetLater) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   Application application;
@@ -79,7 +77,7 @@ TEST_P(CallbackChain, ThePostTickCallbackMayBeSetLater) {
   EXPECT_TRUE(wet.isHooked());
 }
 
-TEST_P(CallbackChain, OverwritingTheSlotIsNoticed) {
+TEST_IN_EVERY_WORLD(CallbackChain, OverwritingTheSlotIsNoticed) {
   BodyScene scene(GetParam());
   Application application;
   wetcloth::WetClothWorld wet(scene.world());
@@ -97,7 +95,7 @@ TEST_P(CallbackChain, OverwritingTheSlotIsNoticed) {
 }
 
 // Whoever took the slot after us keeps it when we leave.
-TEST_P(CallbackChain, ACallbackSetOnTopOfOursSurvivesUs) {
+TEST_IN_EVERY_WORLD(CallbackChain, ACallbackSetOnTopOfOursSurvivesUs) {
   BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::preTick, &application, true);
@@ -109,7 +107,7 @@ TEST_P(CallbackChain, ACallbackSetOnTopOfOursSurvivesUs) {
   EXPECT_EQ(application.calls, Calls{"other"});
 }
 
-TEST_P(CallbackChain, AnApplicationThatTookTheSlotMayCallUsItself) {
+TEST_IN_EVERY_WORLD(CallbackChain, AnApplicationThatTookTheSlotMayCallUsItself) {
   BodyScene scene(GetParam());
   Application application;
   wetcloth::WetClothWorld wet(scene.world());
@@ -120,7 +118,7 @@ TEST_P(CallbackChain, AnApplicationThatTookTheSlotMayCallUsItself) {
   EXPECT_EQ(application.calls, (Calls{"application", "effect", "application", "effect"}));
 }
 
-TEST_P(CallbackChain, InManualModeTheSlotIsTheApplications) {
+TEST_IN_EVERY_WORLD(CallbackChain, InManualModeTheSlotIsTheApplications) {
   BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::preTickThatCallsUs, &application, true);
@@ -138,7 +136,7 @@ TEST_P(CallbackChain, InManualModeTheSlotIsTheApplications) {
   EXPECT_EQ(application.calls.back(), "other");
 }
 
-TEST_P(CallbackChain, TwoOnOneWorldAreRefused) {
+TEST_IN_EVERY_WORLD(CallbackChain, TwoOnOneWorldAreRefused) {
   BodyScene scene(GetParam());
   for (const wetcloth::Hook second : {wetcloth::Hook::preTick, wetcloth::Hook::manual}) {
     wetcloth::WetClothWorld wet(scene.world());
@@ -151,7 +149,7 @@ TEST_P(CallbackChain, TwoOnOneWorldAreRefused) {
   }
 }
 
-TEST_P(CallbackChain, AttachingAgainAfterDetachingWorks) {
+TEST_IN_EVERY_WORLD(CallbackChain, AttachingAgainAfterDetachingWorks) {
   BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::preTick, &application, true);
@@ -165,7 +163,7 @@ TEST_P(CallbackChain, AttachingAgainAfterDetachingWorks) {
 }
 
 // An exception of the application's own travels through Bullet's step to the application; the next step is whole.
-TEST_P(CallbackChain, AnApplicationsExceptionDoesNotSilenceUs) {
+TEST_IN_EVERY_WORLD(CallbackChain, AnApplicationsExceptionDoesNotSilenceUs) {
   BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(
@@ -179,7 +177,7 @@ TEST_P(CallbackChain, AnApplicationsExceptionDoesNotSilenceUs) {
 }
 
 // What we know of the slot must outlive the call that is under way.
-TEST_P(CallbackChain, TheApplicationMayDestroyUsFromItsCallback) {
+TEST_IN_EVERY_WORLD(CallbackChain, TheApplicationMayDestroyUsFromItsCallback) {
   static std::unique_ptr<wetcloth::WetClothWorld> wet;
   BodyScene scene(GetParam());
   scene.world().setInternalTickCallback([](btDynamicsWorld*, btScalar) { wet.reset(); }, nullptr, true);
@@ -203,8 +201,6 @@ TEST(CallbackChainOfAnotherWorld, IsRefused) {
   EXPECT_THROW(wetcloth::WetClothWorld wet(world), std::invalid_argument);
   world.stepSimulation(btScalar(1) / 60);  // and nothing is left in its slot
 }
-
-WETCLOTH_IN_EVERY_WORLD(CallbackChain);
 
 }  // namespace
 }  // namespace wetcloth_test::callback_chain_test

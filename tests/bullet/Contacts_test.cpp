@@ -23,9 +23,7 @@ RigidContacts contactsOf(wetcloth::WetCloth& cloth) {
   return RigidContacts(cloth.body(), cloth.world().world(), cloth.isInDeformableWorld());
 }
 
-using ContactsInWorld = InEveryWorld;
-
-TEST_P(ContactsInWorld, ARigidContactIsToldAlikeInEveryWorld) {
+TEST_IN_EVERY_WORLD(ContactsInWorld, ARigidContactIsToldAlikeInEveryWorld) {
   ClothScene scene(GetParam(), {0, 0, 0}, Lying().builder(GetParam()));
   RigidBody floor(scene.bullet(), box(5, 0.5, 5), 0, {0, -0.5, 0});
   std::array<int, 16> found = {};
@@ -47,7 +45,7 @@ TEST_P(ContactsInWorld, ARigidContactIsToldAlikeInEveryWorld) {
   for (const int times : found) EXPECT_EQ(times, 1);
 }
 
-TEST_P(ContactsInWorld, WhatHasLeftTheWorldIsPassedOver) {
+TEST_IN_EVERY_WORLD(ContactsInWorld, WhatHasLeftTheWorldIsPassedOver) {
   ClothScene scene(GetParam(), kEarthGravity, Lying().builder(GetParam()));
   const auto count = [&] {
     int contacts = 0;
@@ -63,7 +61,7 @@ TEST_P(ContactsInWorld, WhatHasLeftTheWorldIsPassedOver) {
 }
 
 // Bullet's lists keep the addresses of nodes that moved when the body was cut.
-TEST_P(ContactsInWorld, NodesThatMovedInMemoryArePassedOver) {
+TEST_IN_EVERY_WORLD(ContactsInWorld, NodesThatMovedInMemoryArePassedOver) {
   ClothScene scene(GetParam(), kEarthGravity, Lying().builder(GetParam()));
   RigidBody floor(scene.bullet(), box(5, 0.5, 5), 0, {0, -0.5, 0});
   scene.step(1);
@@ -77,7 +75,7 @@ TEST_P(ContactsInWorld, NodesThatMovedInMemoryArePassedOver) {
   });
 }
 
-TEST_P(ContactsInWorld, AContactWithATriangleHasWeightsThatSumToOne) {
+TEST_IN_EVERY_WORLD(ContactsInWorld, AContactWithATriangleHasWeightsThatSumToOne) {
   ClothScene scene(GetParam(), kEarthGravity, Lying().builder(GetParam()));
   RigidBody floor(scene.bullet(), box(5, 0.5, 5), 0, {0, -0.5, 0});
   Lying above;
@@ -109,8 +107,6 @@ TEST_P(ContactsInWorld, AContactWithATriangleHasWeightsThatSumToOne) {
   EXPECT_GT(found, 0);
   scene.bullet().remove(*upper);
 }
-
-WETCLOTH_IN_EVERY_WORLD(ContactsInWorld);
 
 TEST(ContactsOfTriangles, AreToldWithTheirFace) {
   using Flags = btSoftBody::fCollision;

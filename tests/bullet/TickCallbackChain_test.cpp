@@ -41,9 +41,7 @@ wetcloth::Effect& addRecorder(wetcloth::WetCloth& cloth, Application& applicatio
       stage);
 }
 
-using TickCallbackChain = InEveryWorld;
-
-TEST_P(TickCallbackChain, TheSlotIsTheApplicationsWhileNoEffectNeedsIt) {
+TEST_IN_EVERY_WORLD(TickCallbackChain, TheSlotIsTheApplicationsWhileNoEffectNeedsIt) {
   BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::tick, &application, false);
@@ -55,7 +53,7 @@ TEST_P(TickCallbackChain, TheSlotIsTheApplicationsWhileNoEffectNeedsIt) {
   EXPECT_EQ(application.calls, (Calls{"forces", "application"}));
 }
 
-TEST_P(TickCallbackChain, TheApplicationComesFirst) {
+TEST_IN_EVERY_WORLD(TickCallbackChain, TheApplicationComesFirst) {
   BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::tick, &application, false);
@@ -69,7 +67,7 @@ TEST_P(TickCallbackChain, TheApplicationComesFirst) {
   EXPECT_EQ(application.calls, (Calls{"sources", "application", "contact", "sources", "application", "contact"}));
 }
 
-TEST_P(TickCallbackChain, TheSlotIsGivenBackWithTheLastEffect) {
+TEST_IN_EVERY_WORLD(TickCallbackChain, TheSlotIsGivenBackWithTheLastEffect) {
   BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::tick, &application, false);
@@ -89,7 +87,7 @@ TEST_P(TickCallbackChain, TheSlotIsGivenBackWithTheLastEffect) {
   EXPECT_FALSE(wet.isTickHooked());
 }
 
-TEST_P(TickCallbackChain, DetachingPutsTheApplicationsCallbackBack) {
+TEST_IN_EVERY_WORLD(TickCallbackChain, DetachingPutsTheApplicationsCallbackBack) {
   BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::tick, &application, false);
@@ -101,7 +99,7 @@ TEST_P(TickCallbackChain, DetachingPutsTheApplicationsCallbackBack) {
   EXPECT_EQ(application.calls, Calls{"application"});
 }
 
-TEST_P(TickCallbackChain, NothingIsLeftBehind) {
+TEST_IN_EVERY_WORLD(TickCallbackChain, NothingIsLeftBehind) {
   BodyScene scene(GetParam());
   Application application;
   {
@@ -113,7 +111,7 @@ TEST_P(TickCallbackChain, NothingIsLeftBehind) {
   EXPECT_EQ(scene.world().getWorldUserInfo(), nullptr);
 }
 
-TEST_P(TickCallbackChain, ThePreTickCallbackMayBeSetLater) {
+TEST_IN_EVERY_WORLD(TickCallbackChain, ThePreTickCallbackMayBeSetLater) {
   BodyScene scene(GetParam());
   Application application;
   wetcloth::WetClothWorld wet(scene.world());
@@ -125,7 +123,7 @@ TEST_P(TickCallbackChain, ThePreTickCallbackMayBeSetLater) {
   EXPECT_FALSE(wet.isHooked());
 }
 
-TEST_P(TickCallbackChain, OverwritingTheSlotIsNoticed) {
+TEST_IN_EVERY_WORLD(TickCallbackChain, OverwritingTheSlotIsNoticed) {
   BodyScene scene(GetParam());
   Application application;
   wetcloth::WetClothWorld wet(scene.world());
@@ -143,7 +141,7 @@ TEST_P(TickCallbackChain, OverwritingTheSlotIsNoticed) {
   EXPECT_EQ(messages.size(), 1u);
 }
 
-TEST_P(TickCallbackChain, AnApplicationThatTookTheSlotMayCallUsItself) {
+TEST_IN_EVERY_WORLD(TickCallbackChain, AnApplicationThatTookTheSlotMayCallUsItself) {
   BodyScene scene(GetParam());
   Application application;
   {
@@ -159,7 +157,7 @@ TEST_P(TickCallbackChain, AnApplicationThatTookTheSlotMayCallUsItself) {
   EXPECT_EQ(application.calls.back(), "other") << "whoever took the slot after us keeps it";
 }
 
-TEST_P(TickCallbackChain, InManualModeTheSlotIsTheApplications) {
+TEST_IN_EVERY_WORLD(TickCallbackChain, InManualModeTheSlotIsTheApplications) {
   BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback(Application::preTickThatCallsUs, &application, true);
@@ -174,7 +172,7 @@ TEST_P(TickCallbackChain, InManualModeTheSlotIsTheApplications) {
   EXPECT_EQ(application.calls, (Calls{"forces", "application", "contact"}));
 }
 
-TEST_P(TickCallbackChain, AnApplicationsExceptionDoesNotSilenceUs) {
+TEST_IN_EVERY_WORLD(TickCallbackChain, AnApplicationsExceptionDoesNotSilenceUs) {
   BodyScene scene(GetParam());
   Application application;
   scene.world().setInternalTickCallback([](btDynamicsWorld*, btScalar) { throw std::runtime_error("its own"); },
@@ -187,7 +185,7 @@ TEST_P(TickCallbackChain, AnApplicationsExceptionDoesNotSilenceUs) {
 
 // --- the stage ------------------------------------------------------------------------------------------------------
 
-TEST_P(TickCallbackChain, AnEffectSeesTheSubstepOfItsPreTick) {
+TEST_IN_EVERY_WORLD(TickCallbackChain, AnEffectSeesTheSubstepOfItsPreTick) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
@@ -203,7 +201,7 @@ TEST_P(TickCallbackChain, AnEffectSeesTheSubstepOfItsPreTick) {
   }
 }
 
-TEST_P(TickCallbackChain, AThrowingEffectIsRemovedAndTheSlotGivenBack) {
+TEST_IN_EVERY_WORLD(TickCallbackChain, AThrowingEffectIsRemovedAndTheSlotGivenBack) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   Calls messages;
@@ -217,7 +215,7 @@ TEST_P(TickCallbackChain, AThrowingEffectIsRemovedAndTheSlotGivenBack) {
   EXPECT_FALSE(wet.isTickHooked());
 }
 
-TEST_P(TickCallbackChain, AnEffectThatDoesNothingChangesNothing) {
+TEST_IN_EVERY_WORLD(TickCallbackChain, AnEffectThatDoesNothingChangesNothing) {
   BodyScene with(GetParam(), hangingPatch(5));
   BodyScene without(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(with.world());
@@ -241,8 +239,6 @@ TEST(TickCallbackOfASleeper, DoesNotRun) {
   scene.bullet().step(10);
   EXPECT_EQ(calls, before);
 }
-
-WETCLOTH_IN_EVERY_WORLD(TickCallbackChain);
 
 }  // namespace
 }  // namespace wetcloth_test::tick_callback_chain_test

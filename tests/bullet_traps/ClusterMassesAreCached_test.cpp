@@ -62,10 +62,8 @@ void expectSameCaches(const btSoftBody& wet, const btSoftBody& fresh) {
   }
 }
 
-using ClusterMassesAreCached = InEveryWorld;
-
 // The fact.
-TEST_P(ClusterMassesAreCached, InPlainBulletTheyDoNotFollowTheNodes) {
+TEST_IN_EVERY_WORLD(ClusterMassesAreCached, InPlainBulletTheyDoNotFollowTheNodes) {
   BodyScene scene(GetParam(), dryWithClusters);
   const btScalar before = scene.body().m_clusters[0]->m_imass;
   makeUnevenlyHeavy(scene.body());
@@ -73,7 +71,7 @@ TEST_P(ClusterMassesAreCached, InPlainBulletTheyDoNotFollowTheNodes) {
   EXPECT_EQ(scene.body().m_clusters[0]->m_imass, before);
 }
 
-TEST_P(ClusterMassesAreCached, WetClothHasThoseOfABodyBuiltHeavy) {
+TEST_IN_EVERY_WORLD(ClusterMassesAreCached, WetClothHasThoseOfABodyBuiltHeavy) {
   BodyScene scene(GetParam(), dryWithClusters);
   BodyScene fresh(GetParam(), heavyWithClusters);
   wetcloth::WetClothWorld wet(scene.world());
@@ -82,7 +80,7 @@ TEST_P(ClusterMassesAreCached, WetClothHasThoseOfABodyBuiltHeavy) {
   expectSameCaches(scene.body(), fresh.body());
 }
 
-TEST_P(ClusterMassesAreCached, ShapeAtRestIsThatOfTheDryClothNotTheDeformedOne) {
+TEST_IN_EVERY_WORLD(ClusterMassesAreCached, ShapeAtRestIsThatOfTheDryClothNotTheDeformedOne) {
   BodyScene scene(GetParam(), dryWithClusters);
   BodyScene fresh(GetParam(), heavyWithClusters);
   wetcloth::WetClothWorld wet(scene.world());
@@ -94,7 +92,7 @@ TEST_P(ClusterMassesAreCached, ShapeAtRestIsThatOfTheDryClothNotTheDeformedOne) 
 
 // Damping pulls each node towards the velocity of its cluster, which is a mean by mass. Only the two position-based
 // worlds do that.
-TEST_P(ClusterMassesAreCached, RunsLikeABodyBuiltHeavy) {
+TEST_IN_EVERY_WORLD(ClusterMassesAreCached, RunsLikeABodyBuiltHeavy) {
   BodyScene scene(GetParam(), dryWithClusters);
   BodyScene fresh(GetParam(), heavyWithClusters);
   BodyScene dry(GetParam(), dryWithClusters);
@@ -114,8 +112,6 @@ TEST_P(ClusterMassesAreCached, RunsLikeABodyBuiltHeavy) {
     EXPECT_GT(largestDifference(stateOf(dry.body()), expected), 10 * tolerance) << "masses matter here";
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(ClusterMassesAreCached);
 
 }  // namespace
 }  // namespace wetcloth_test::cluster_masses_are_cached_test

@@ -80,9 +80,7 @@ struct Watch {
   }
 };
 
-using ContactLists = InEveryWorld;
-
-TEST_P(ContactLists, OfRigidBodiesAreFullInTheTickAndStillInTheNextPreTick) {
+TEST_IN_EVERY_WORLD(ContactLists, OfRigidBodiesAreFullInTheTickAndStillInTheNextPreTick) {
   Sheets sheets(GetParam(), contactFlags(GetParam()));
   const Watch watch(sheets);
   sheets.bullet.step(1);
@@ -93,7 +91,7 @@ TEST_P(ContactLists, OfRigidBodiesAreFullInTheTickAndStillInTheNextPreTick) {
 }
 
 // The deformable world looks for contacts of two soft bodies after its solve, and applies them at once.
-TEST_P(ContactLists, OfSoftBodiesAreEmptyInTheTickOfTheDeformableWorld) {
+TEST_IN_EVERY_WORLD(ContactLists, OfSoftBodiesAreEmptyInTheTickOfTheDeformableWorld) {
   Sheets sheets(GetParam(), contactFlags(GetParam()));
   const Watch watch(sheets);
   sheets.bullet.step(240);
@@ -102,7 +100,7 @@ TEST_P(ContactLists, OfSoftBodiesAreEmptyInTheTickOfTheDeformableWorld) {
 }
 
 // What another world would solve is listed all the same, never solved, and never emptied: it grows step by step.
-TEST_P(ContactLists, GrowWithoutEndWithAnotherWorldsFlags) {
+TEST_IN_EVERY_WORLD(ContactLists, GrowWithoutEndWithAnotherWorldsFlags) {
   const bool isDeformable = Sheets(GetParam(), 0).bullet.isDeformable();
   Sheets sheets(GetParam(), contactFlags(isDeformable ? WorldKind::softRigid : WorldKind::deformable));
   const Watch watch(sheets);
@@ -111,8 +109,6 @@ TEST_P(ContactLists, GrowWithoutEndWithAnotherWorldsFlags) {
   sheets.bullet.step(240);
   EXPECT_LT(double(sheets.lower->m_nodes[0].m_x.y()), -1) << "and the cloth falls through the floor";
 }
-
-WETCLOTH_IN_EVERY_WORLD(ContactLists);
 
 TEST(ContactListsOfTheDeformableWorld, NeedAFlagForNodesOrTriangles) {
   for (const int more : {0, int(Flags::SDF_RDN), int(Flags::SDF_RDF)}) {

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kTolerance = kIsDouble ? 1e-12 : 1e-5;
 
-class DeformableCachesMasses : public testing::TestWithParam<WorldKind> {
+class DeformableCachesMasses {
  protected:
   // Inverse masses as the preconditioner knows them: it multiplies by them.
   static std::vector<btScalar> preconditionedOnes(btSoftBody& body) {
@@ -37,7 +37,7 @@ class DeformableCachesMasses : public testing::TestWithParam<WorldKind> {
 };
 
 // The fact.
-TEST_P(DeformableCachesMasses, InPlainBulletThePreconditionerStaysBehind) {
+TEST_F_IN_DEFORMABLE_WORLDS(DeformableCachesMasses, InPlainBulletThePreconditionerStaysBehind) {
   BodyScene scene(GetParam(), squarePatch(4));
   scene.bullet().step(1);
   const std::vector<btScalar> before = preconditionedOnes(scene.body());
@@ -46,7 +46,7 @@ TEST_P(DeformableCachesMasses, InPlainBulletThePreconditionerStaysBehind) {
   EXPECT_TRUE(sameBits(preconditionedOnes(scene.body()), before));
 }
 
-TEST_P(DeformableCachesMasses, ThePreconditionerFollowsTheWater) {
+TEST_F_IN_DEFORMABLE_WORLDS(DeformableCachesMasses, ThePreconditionerFollowsTheWater) {
   BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -59,7 +59,7 @@ TEST_P(DeformableCachesMasses, ThePreconditionerFollowsTheWater) {
   }
 }
 
-TEST_P(DeformableCachesMasses, ThePreconditionerKeepsOtherBodiesInTheirPlaces) {
+TEST_F_IN_DEFORMABLE_WORLDS(DeformableCachesMasses, ThePreconditionerKeepsOtherBodiesInTheirPlaces) {
   BulletWorld bullet(GetParam());
   std::unique_ptr<btSoftBody> bodies[3];
   for (auto& body : bodies) {
@@ -106,7 +106,7 @@ struct AnchoredScene {
 };
 
 // The fact.
-TEST_P(DeformableCachesMasses, InPlainBulletAnchorsStayBehind) {
+TEST_F_IN_DEFORMABLE_WORLDS(DeformableCachesMasses, InPlainBulletAnchorsStayBehind) {
   AnchoredScene dry(GetParam(), false);
   const btMatrix3x3 before = dry.scene.body().m_deformableAnchors[0].m_c0;
   const btScalar inverseMass = dry.scene.body().m_deformableAnchors[0].m_c2;
@@ -116,7 +116,7 @@ TEST_P(DeformableCachesMasses, InPlainBulletAnchorsStayBehind) {
   EXPECT_EQ(dry.scene.body().m_deformableAnchors[0].m_c2, inverseMass);
 }
 
-TEST_P(DeformableCachesMasses, AnchorsFollowTheWater) {
+TEST_F_IN_DEFORMABLE_WORLDS(DeformableCachesMasses, AnchorsFollowTheWater) {
   AnchoredScene wetted(GetParam(), false);
   AnchoredScene fresh(GetParam(), true);
   wetcloth::WetClothWorld wet(wetted.scene.world());
@@ -132,7 +132,7 @@ TEST_P(DeformableCachesMasses, AnchorsFollowTheWater) {
   }
 }
 
-TEST_P(DeformableCachesMasses, AnAnchoredClothRunsLikeOneBuiltHeavy) {
+TEST_F_IN_DEFORMABLE_WORLDS(DeformableCachesMasses, AnAnchoredClothRunsLikeOneBuiltHeavy) {
   AnchoredScene wetted(GetParam(), false);
   AnchoredScene fresh(GetParam(), true);
   AnchoredScene dry(GetParam(), false);
@@ -148,10 +148,6 @@ TEST_P(DeformableCachesMasses, AnAnchoredClothRunsLikeOneBuiltHeavy) {
   EXPECT_LT(largestDifference(stateOf(wetted.scene.body()), expected), 1e-3);
   EXPECT_GT(largestDifference(stateOf(dry.scene.body()), expected), 1e-2) << "the comparison tells masses apart";
 }
-
-INSTANTIATE_TEST_SUITE_P(, DeformableCachesMasses,
-                         testing::Values(WorldKind::deformable, WorldKind::deformableImplicit),
-                         [](const auto& test) { return std::string(nameOf(test.param)); });
 
 }  // namespace
 }  // namespace wetcloth_test::deformable_caches_masses_test

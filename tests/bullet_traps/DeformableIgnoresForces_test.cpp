@@ -19,10 +19,8 @@ void pushWithForces(btDynamicsWorld* world, btScalar) {
   for (int i = 0; i < body.m_nodes.size(); ++i) body.addForce(btVector3(0, 0, 1) / body.m_nodes[i].m_im, i);
 }
 
-using DeformableIgnoresForces = InEveryWorld;
-
 // The fact: 1 m/s^2 for half a second.
-TEST_P(DeformableIgnoresForces, InPlainBullet) {
+TEST_IN_EVERY_WORLD(DeformableIgnoresForces, InPlainBullet) {
   BodyScene scene(GetParam(), sailPatch(4), kNoGravity);
   scene.world().setInternalTickCallback(pushWithForces, &scene.body(), true);
   scene.bullet().step(120);
@@ -30,7 +28,7 @@ TEST_P(DeformableIgnoresForces, InPlainBullet) {
   EXPECT_NEAR(meanVelocity(scene.body()).z(), expected, 1e-3);  // Euler's first order and rounding
 }
 
-TEST_P(DeformableIgnoresForces, OurPushMovesTheClothInEveryWorld) {
+TEST_IN_EVERY_WORLD(DeformableIgnoresForces, OurPushMovesTheClothInEveryWorld) {
   BodyScene scene(GetParam(), sailPatch(4), kNoGravity);
   wetcloth::WetClothWorld wet(scene.world());
   addCall(wet.add(scene.body()), [](wetcloth::WetCloth& cloth, const wetcloth::Step& step) {
@@ -44,7 +42,7 @@ TEST_P(DeformableIgnoresForces, OurPushMovesTheClothInEveryWorld) {
   EXPECT_NEAR(meanPosition(scene.body()).z(), 0.125, 0.5 / 240);
 }
 
-TEST_P(DeformableIgnoresForces, OurWindMovesTheClothInEveryWorld) {
+TEST_IN_EVERY_WORLD(DeformableIgnoresForces, OurWindMovesTheClothInEveryWorld) {
   BodyScene scene(GetParam(), sailPatch(4), kNoGravity);
   wetcloth::WetClothWorld wet(scene.world());
   wet.add(scene.body()).add<wetcloth::Wind>({btVector3(0, 0, 4)});
@@ -56,8 +54,6 @@ TEST_P(DeformableIgnoresForces, OurWindMovesTheClothInEveryWorld) {
   EXPECT_NEAR(meanVelocity(scene.body()).z(), expected, 0.03 * expected);
   EXPECT_GT(meanPosition(scene.body()).z(), 1);
 }
-
-WETCLOTH_IN_EVERY_WORLD(DeformableIgnoresForces);
 
 }  // namespace
 }  // namespace wetcloth_test::deformable_ignores_forces_test

@@ -7,6 +7,7 @@
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/CallEffect.h"
+#include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
 #include "tests/support/Measures.h"
 #include "tests/support/Patches.h"
@@ -19,15 +20,13 @@ namespace {
 
 constexpr int kUntilAsleep = 5 * 240;  // Bullet waits for 2 s of rest
 
-using DeformableSleep = testing::TestWithParam<WorldKind>;
-
 void pushOnce(btDynamicsWorld* world, btScalar) {
   btSoftBody& body = *static_cast<btSoftBody*>(world->getWorldUserInfo());
   body.addVelocity(btVector3(0, 0, 1));
 }
 
 // The fact.
-TEST_P(DeformableSleep, InPlainBulletARestingBodySleepsAndAPushStillMovesIt) {
+TEST_IN_DEFORMABLE_WORLDS(DeformableSleep, InPlainBulletARestingBodySleepsAndAPushStillMovesIt) {
   BodyScene scene(GetParam(), sailPatch(4), kNoGravity);
   scene.bullet().step(kUntilAsleep);
   ASSERT_EQ(scene.body().getActivationState(), ISLAND_SLEEPING);
@@ -46,7 +45,7 @@ TEST(DeformableSleepElsewhere, InPlainBulletTheOtherWorldsNeverPutASoftBodyToSle
   }
 }
 
-TEST_P(DeformableSleep, RisingWindWakesTheCloth) {
+TEST_IN_DEFORMABLE_WORLDS(DeformableSleep, RisingWindWakesTheCloth) {
   BodyScene scene(GetParam(), sailPatch(4), kNoGravity);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::Wind& wind = wet.add(scene.body()).add<wetcloth::Wind>({btVector3(0, 0, 0)});
@@ -58,7 +57,7 @@ TEST_P(DeformableSleep, RisingWindWakesTheCloth) {
   EXPECT_GT(meanVelocity(scene.body()).z(), 1);
 }
 
-TEST_P(DeformableSleep, WaterThatLandsIsTakenUpInSleep) {
+TEST_IN_DEFORMABLE_WORLDS(DeformableSleep, WaterThatLandsIsTakenUpInSleep) {
   BodyScene scene(GetParam(), sailPatch(4), kNoGravity);
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(1, 2));
@@ -71,7 +70,7 @@ TEST_P(DeformableSleep, WaterThatLandsIsTakenUpInSleep) {
 }
 
 // Nothing that pulls steadily may creep a sleeping cloth along: asleep is asleep.
-TEST_P(DeformableSleep, ASteadyPushDoesNotDragASleepingCloth) {
+TEST_IN_DEFORMABLE_WORLDS(DeformableSleep, ASteadyPushDoesNotDragASleepingCloth) {
   wetcloth::ClothPatch patch = sailPatch(4);
   BodyScene scene(GetParam(), patch, kNoGravity);
   wetcloth::WetClothWorld wet(scene.world());
@@ -93,9 +92,6 @@ TEST_P(DeformableSleep, ASteadyPushDoesNotDragASleepingCloth) {
   EXPECT_EQ(largestDifference(stateOf(scene.body()), before), 0);
   EXPECT_LT(pushes, kUntilAsleep + 240) << "the stage is not asked to act on a sleeping body";
 }
-
-INSTANTIATE_TEST_SUITE_P(, DeformableSleep, testing::Values(WorldKind::deformable, WorldKind::deformableImplicit),
-                         [](const auto& test) { return std::string(nameOf(test.param)); });
 
 }  // namespace
 }  // namespace wetcloth_test::deformable_sleep_test

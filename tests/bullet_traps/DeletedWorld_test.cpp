@@ -9,13 +9,13 @@ namespace wetcloth_test::deleted_world_test {
 
 namespace {
 
-class DeletedWorld : public InEveryWorld {
+class DeletedWorld {
  protected:
   BulletWorld bullet{GetParam()};
   std::unique_ptr<btSoftBody> body = squarePatch(4).build(bullet.info());
 };
 
-TEST_P(DeletedWorld, InPlainBulletIsToldByItsBodies) {
+TEST_F_IN_EVERY_WORLD(DeletedWorld, InPlainBulletIsToldByItsBodies) {
   EXPECT_EQ(body->getWorldArrayIndex(), -1);
   bullet.add(*body);
   bullet.step(3);
@@ -26,15 +26,13 @@ TEST_P(DeletedWorld, InPlainBulletIsToldByItsBodies) {
   EXPECT_GE(body->getWorldArrayIndex(), 0);
 }
 
-TEST_P(DeletedWorld, InPlainBulletIsNotABodyThatWasTakenOut) {
+TEST_F_IN_EVERY_WORLD(DeletedWorld, InPlainBulletIsNotABodyThatWasTakenOut) {
   bullet.add(*body);
   bullet.step(3);
   bullet.remove(*body);
   EXPECT_EQ(body->getBroadphaseHandle(), nullptr);
   EXPECT_EQ(body->getWorldArrayIndex(), -1);
 }
-
-WETCLOTH_IN_EVERY_WORLD(DeletedWorld);
 
 }  // namespace
 }  // namespace wetcloth_test::deleted_world_test

@@ -35,15 +35,13 @@ double fastest(WorldKind kind, wetcloth::Wind::Integration integration, wetcloth
   return result;
 }
 
-using ExplicitWindOvershoots = InEveryWorld;
-
 // The fact: force 72 N/m^2 over 0.01 kg/m^2 for 1/60 s is 120 m/s.
-TEST_P(ExplicitWindOvershoots, ByALot) {
+TEST_IN_EVERY_WORLD(ExplicitWindOvershoots, ByALot) {
   EXPECT_GT(fastest(GetParam(), wetcloth::Wind::Integration::explicitEuler, wetcloth::Wind::Law::quadratic), 2 * kAir);
   EXPECT_GT(fastest(GetParam(), wetcloth::Wind::Integration::explicitEuler, wetcloth::Wind::Law::linear), 2 * kAir);
 }
 
-TEST_P(ExplicitWindOvershoots, TheDefaultDoesNot) {
+TEST_IN_EVERY_WORLD(ExplicitWindOvershoots, TheDefaultDoesNot) {
   const wetcloth::Wind::Parameters defaults;
   for (const wetcloth::Wind::Law law : {wetcloth::Wind::Law::quadratic, wetcloth::Wind::Law::linear}) {
     const double speed = fastest(GetParam(), defaults.integration, law);
@@ -51,8 +49,6 @@ TEST_P(ExplicitWindOvershoots, TheDefaultDoesNot) {
     EXPECT_GT(speed, 0.8 * kAir) << "and it does blow";
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(ExplicitWindOvershoots);
 
 }  // namespace
 }  // namespace wetcloth_test::explicit_wind_overshoots_test

@@ -36,9 +36,7 @@ TEST(FloatStep, InPlainBulletOnlyTheDeformableWorldKeepsTheStepsDigits) {
 
 #endif
 
-using WaterKeepsItsDigits = InEveryWorld;
-
-TEST_P(WaterKeepsItsDigits, WhateverTheSolverDoesToTheStep) {
+TEST_IN_EVERY_WORLD(WaterKeepsItsDigits, WhateverTheSolverDoesToTheStep) {
   BodyScene scene(GetParam(), squarePatch(3));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(0.84, 2.0));
@@ -49,8 +47,6 @@ TEST_P(WaterKeepsItsDigits, WhateverTheSolverDoesToTheStep) {
   EXPECT_NEAR(cloth.saturation(4), expected, 1e-12 * expected);
   EXPECT_NEAR(cloth.meanSaturation(), expected, 1e-12 * expected);
 }
-
-WETCLOTH_IN_EVERY_WORLD(WaterKeepsItsDigits);
 
 }  // namespace
 }  // namespace wetcloth_test::float_step_test

@@ -52,10 +52,8 @@ TEST(LateVelocitiesAreWiped, OfThePostTickInPlainBullet) {
   }
 }
 
-using OneEarlyPush = InEveryWorld;
-
 // 1 m/s, given once: after 0.1 s the cloth is 0.1 m away and still moving.
-TEST_P(OneEarlyPush, Lasts) {
+TEST_IN_EVERY_WORLD(OneEarlyPush, Lasts) {
   BodyScene scene(GetParam(), sailPatch(4), kNoGravity);
   wetcloth::WetClothWorld wet(scene.world());
   bool pushed = false;
@@ -69,8 +67,6 @@ TEST_P(OneEarlyPush, Lasts) {
   EXPECT_NEAR(meanVelocity(scene.body()).z(), 1, 1e-4);
   EXPECT_NEAR(meanPosition(scene.body()).z(), 0.1, 1e-4);
 }
-
-WETCLOTH_IN_EVERY_WORLD(OneEarlyPush);
 
 }  // namespace
 }  // namespace wetcloth_test::late_velocities_are_wiped_test

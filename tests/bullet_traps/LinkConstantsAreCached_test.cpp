@@ -33,7 +33,7 @@ TEST(LinkConstantsAreCached, InPlainBulletTheyFakeASag) {
   EXPECT_GT(stale, 2 * fresh) << "fresh " << fresh;
 }
 
-class LinkConstants : public InEveryWorld {
+class LinkConstants {
  protected:
   // What is cached against what Bullet itself would compute from the present masses.
   static void expectFresh(btSoftBody& body) {
@@ -46,7 +46,7 @@ class LinkConstants : public InEveryWorld {
   }
 };
 
-TEST_P(LinkConstants, FollowAbsorption) {
+TEST_F_IN_EVERY_WORLD(LinkConstants, FollowAbsorption) {
   wetcloth::ClothPatch patch = hangingPatch(6);
   patch.shearStiffness = 0.5;
   patch.flexionStiffness = 0.1;
@@ -61,7 +61,7 @@ TEST_P(LinkConstants, FollowAbsorption) {
   EXPECT_GT(cloth.linkConstants().refreshes(), 0);
 }
 
-TEST_P(LinkConstants, FollowWaterSetByHand) {
+TEST_F_IN_EVERY_WORLD(LinkConstants, FollowWaterSetByHand) {
   BodyScene scene(GetParam(), hangingPatch(6));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -73,7 +73,7 @@ TEST_P(LinkConstants, FollowWaterSetByHand) {
 }
 
 // The other half of the trap: refreshing costs a pass over all links, so it happens only when a mass changed.
-TEST_P(LinkConstants, AreLeftAloneWhenNoMassChanged) {
+TEST_F_IN_EVERY_WORLD(LinkConstants, AreLeftAloneWhenNoMassChanged) {
   BodyScene scene(GetParam(), hangingPatch(6));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -83,8 +83,6 @@ TEST_P(LinkConstants, AreLeftAloneWhenNoMassChanged) {
   scene.bullet().step(20);
   EXPECT_EQ(cloth.linkConstants().refreshes(), before);
 }
-
-WETCLOTH_IN_EVERY_WORLD(LinkConstants);
 
 }  // namespace
 }  // namespace wetcloth_test::link_constants_are_cached_test

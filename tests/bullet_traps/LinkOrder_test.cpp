@@ -50,9 +50,7 @@ TEST(LinkOrder, InPlainBulletReversingChangesTheResult) {
   EXPECT_GT(largestDifference(stateOf(one.body()), stateOf(other.body())), 1e-4);
 }
 
-using LinkOrderIsKept = InEveryWorld;
-
-TEST_P(LinkOrderIsKept, OfABodyThatIsNotOurs) {
+TEST_IN_EVERY_WORLD(LinkOrderIsKept, OfABodyThatIsNotOurs) {
   BodyScene scene(GetParam(), bulletPatch);
   const auto before = orderOf(scene.body());
   wetcloth::WetClothWorld wet(scene.world());
@@ -65,8 +63,6 @@ TEST_P(LinkOrderIsKept, OfABodyThatIsNotOurs) {
   wet.remove(scene.body());
   EXPECT_EQ(orderOf(scene.body()), before);
 }
-
-WETCLOTH_IN_EVERY_WORLD(LinkOrderIsKept);
 
 }  // namespace
 }  // namespace wetcloth_test::link_order_test

@@ -55,9 +55,7 @@ TEST(OnePreTickSlot, InPlainBulletThePostTickCallbackTakesTheUserInfo) {
   EXPECT_EQ(scene.world().getWorldUserInfo(), &others);
 }
 
-using PickingGoesOn = InEveryWorld;
-
-TEST_P(PickingGoesOn, WhileOurWindBlows) {
+TEST_IN_EVERY_WORLD(PickingGoesOn, WhileOurWindBlows) {
   BodyScene scene(GetParam(), sailPatch(6), kNoGravity);
   PickingApplication application;
   scene.world().setInternalTickCallback(PickingApplication::pickingPreTickCallback, &application, true);
@@ -70,7 +68,7 @@ TEST_P(PickingGoesOn, WhileOurWindBlows) {
 }
 
 // The picked node is dragged as it is without us: both see the same velocities.
-TEST_P(PickingGoesOn, WithTheResultThatItHasWithoutUs) {
+TEST_IN_EVERY_WORLD(PickingGoesOn, WithTheResultThatItHasWithoutUs) {
   std::vector<btScalar> results[2];
   for (const bool withUs : {false, true}) {
     BodyScene scene(GetParam(), sailPatch(6), kNoGravity);
@@ -89,7 +87,7 @@ TEST_P(PickingGoesOn, WithTheResultThatItHasWithoutUs) {
   EXPECT_TRUE(sameBits(results[0], results[1]));
 }
 
-TEST_P(PickingGoesOn, AfterWeLeft) {
+TEST_IN_EVERY_WORLD(PickingGoesOn, AfterWeLeft) {
   BodyScene scene(GetParam());
   PickingApplication application;
   scene.world().setInternalTickCallback(PickingApplication::pickingPreTickCallback, &application, true);
@@ -98,8 +96,6 @@ TEST_P(PickingGoesOn, AfterWeLeft) {
   scene.bullet().step(5);
   EXPECT_EQ(application.calls, 5);
 }
-
-WETCLOTH_IN_EVERY_WORLD(PickingGoesOn);
 
 }  // namespace
 }  // namespace wetcloth_test::one_pre_tick_slot_test

@@ -51,10 +51,8 @@ void expectSamePose(const btSoftBody& wet, const btSoftBody& fresh) {
   for (int row = 0; row < 3; ++row) EXPECT_LT((a.m_aqq[row] - b.m_aqq[row]).length(), kTolerance * size) << row;
 }
 
-using PoseWeightsAreCached = InEveryWorld;
-
 // The fact.
-TEST_P(PoseWeightsAreCached, InPlainBulletTheyDoNotFollowTheNodes) {
+TEST_IN_EVERY_WORLD(PoseWeightsAreCached, InPlainBulletTheyDoNotFollowTheNodes) {
   BodyScene scene(GetParam(), maker(false, false));
   const btScalar before = scene.body().m_pose.m_wgh[0];
   makeUnevenlyHeavy(scene.body());
@@ -62,7 +60,7 @@ TEST_P(PoseWeightsAreCached, InPlainBulletTheyDoNotFollowTheNodes) {
   EXPECT_EQ(scene.body().m_pose.m_wgh[0], before);
 }
 
-TEST_P(PoseWeightsAreCached, WetClothHasThoseOfABodyBuiltHeavy) {
+TEST_IN_EVERY_WORLD(PoseWeightsAreCached, WetClothHasThoseOfABodyBuiltHeavy) {
   for (const bool pinned : {false, true}) {
     BodyScene scene(GetParam(), maker(pinned, false));
     BodyScene fresh(GetParam(), maker(pinned, true));
@@ -73,7 +71,7 @@ TEST_P(PoseWeightsAreCached, WetClothHasThoseOfABodyBuiltHeavy) {
   }
 }
 
-TEST_P(PoseWeightsAreCached, ThePoseIsThatOfTheDryClothNotTheDeformedOne) {
+TEST_IN_EVERY_WORLD(PoseWeightsAreCached, ThePoseIsThatOfTheDryClothNotTheDeformedOne) {
   BodyScene scene(GetParam(), maker(false, false));
   BodyScene fresh(GetParam(), maker(false, true));
   wetcloth::WetClothWorld wet(scene.world());
@@ -83,7 +81,7 @@ TEST_P(PoseWeightsAreCached, ThePoseIsThatOfTheDryClothNotTheDeformedOne) {
   expectSamePose(scene.body(), fresh.body());
 }
 
-TEST_P(PoseWeightsAreCached, RunsLikeABodyBuiltHeavy) {
+TEST_IN_EVERY_WORLD(PoseWeightsAreCached, RunsLikeABodyBuiltHeavy) {
   for (const bool pinned : {false, true}) {
     BodyScene scene(GetParam(), maker(pinned, false));
     BodyScene fresh(GetParam(), maker(pinned, true));
@@ -98,8 +96,6 @@ TEST_P(PoseWeightsAreCached, RunsLikeABodyBuiltHeavy) {
     EXPECT_LT(largestDifference(stateOf(scene.body()), stateOf(fresh.body())), kIsDouble ? 1e-8 : 2e-2) << pinned;
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(PoseWeightsAreCached);
 
 }  // namespace
 }  // namespace wetcloth_test::pose_weights_are_cached_test

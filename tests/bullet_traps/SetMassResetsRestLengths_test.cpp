@@ -14,10 +14,8 @@ namespace {
 
 constexpr int kSteps = 240;
 
-using SetMassResetsRestLengths = InEveryWorld;
-
 // The fact: not even a new value is needed.
-TEST_P(SetMassResetsRestLengths, InPlainBullet) {
+TEST_IN_EVERY_WORLD(SetMassResetsRestLengths, InPlainBullet) {
   wetcloth::ClothPatch patch = squarePatch(16);
   patch.pinnedCorners = {wetcloth::ClothPatch::Corner::topLeft, wetcloth::ClothPatch::Corner::topRight};
   BodyScene scene(GetParam(), patch);
@@ -30,7 +28,7 @@ TEST_P(SetMassResetsRestLengths, InPlainBullet) {
   EXPECT_GT(totalRestLength(scene.body()), 1.1 * before);
 }
 
-TEST_P(SetMassResetsRestLengths, WettingLeavesThemAlone) {
+TEST_IN_EVERY_WORLD(SetMassResetsRestLengths, WettingLeavesThemAlone) {
   BodyScene scene(GetParam(), hangingPatch(8));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -45,7 +43,7 @@ TEST_P(SetMassResetsRestLengths, WettingLeavesThemAlone) {
   EXPECT_NEAR(totalRestLength(scene.body()), before, 1e-5 * before);
 }
 
-TEST_P(SetMassResetsRestLengths, WettingByHandLeavesThemAlone) {
+TEST_IN_EVERY_WORLD(SetMassResetsRestLengths, WettingByHandLeavesThemAlone) {
   BodyScene scene(GetParam(), hangingPatch(8));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -57,8 +55,6 @@ TEST_P(SetMassResetsRestLengths, WettingByHandLeavesThemAlone) {
   }
   EXPECT_EQ(totalRestLength(scene.body()), before);
 }
-
-WETCLOTH_IN_EVERY_WORLD(SetMassResetsRestLengths);
 
 }  // namespace
 }  // namespace wetcloth_test::set_mass_resets_rest_lengths_test

@@ -22,10 +22,8 @@ struct Ticks {
   }
 };
 
-using SubstepAndTimescale = InEveryWorld;
-
 // The fact.
-TEST_P(SubstepAndTimescale, InPlainBulletThePreTickRunsOncePerSubstep) {
+TEST_IN_EVERY_WORLD(SubstepAndTimescale, InPlainBulletThePreTickRunsOncePerSubstep) {
   BodyScene scene(GetParam());
   Ticks ticks;
   scene.world().setInternalTickCallback(Ticks::record, &ticks, true);
@@ -33,7 +31,7 @@ TEST_P(SubstepAndTimescale, InPlainBulletThePreTickRunsOncePerSubstep) {
   EXPECT_EQ(ticks.dts, std::vector<btScalar>(4, btScalar(0.004)));
 }
 
-TEST_P(SubstepAndTimescale, EffectsRunOncePerSubstepWithItsDt) {
+TEST_IN_EVERY_WORLD(SubstepAndTimescale, EffectsRunOncePerSubstepWithItsDt) {
   BodyScene scene(GetParam());
   wetcloth::WetClothWorld wet(scene.world());
   std::vector<double> dts;
@@ -64,14 +62,14 @@ double distanceInOneSecond(WorldKind kind, double timescale) {
 }
 
 // The fact.
-TEST_P(SubstepAndTimescale, InPlainBulletTheDeformableWorldIgnoresTheTimescale) {
+TEST_IN_EVERY_WORLD(SubstepAndTimescale, InPlainBulletTheDeformableWorldIgnoresTheTimescale) {
   const bool deformable = BulletWorld(GetParam()).isDeformable();
   EXPECT_NEAR(distanceInOneSecond(GetParam(), 1.0), 1.0, 1e-4);
   EXPECT_NEAR(distanceInOneSecond(GetParam(), 0.5), deformable ? 1.0 : 0.5, 1e-4);
 }
 
 // Whatever the world does with it, the step that effects see is the time that the body lives through.
-TEST_P(SubstepAndTimescale, EffectsSeeTheTimeThatTheBodyLivesThrough) {
+TEST_IN_EVERY_WORLD(SubstepAndTimescale, EffectsSeeTheTimeThatTheBodyLivesThrough) {
   for (const double timescale : {0.5, 1.0, 2.0}) {
     const double lived = distanceInOneSecond(GetParam(), timescale);  // at 1 m/s
     BodyScene scene(GetParam(), squarePatch(3));
@@ -88,7 +86,7 @@ TEST_P(SubstepAndTimescale, EffectsSeeTheTimeThatTheBodyLivesThrough) {
 }
 
 // A body in falling air, with its timescale: gravity in Step is what Bullet adds.
-TEST_P(SubstepAndTimescale, GravityToldIsTheOneThatBulletAdds) {
+TEST_IN_EVERY_WORLD(SubstepAndTimescale, GravityToldIsTheOneThatBulletAdds) {
   for (const double timescale : {0.5, 1.0}) {
     BodyScene scene(GetParam(), squarePatch(3));
     scene.body().m_cfg.timescale = btScalar(timescale);
@@ -100,8 +98,6 @@ TEST_P(SubstepAndTimescale, GravityToldIsTheOneThatBulletAdds) {
     EXPECT_NEAR(told.y(), meanVelocity(scene.body()).y(), 1e-3 * std::fabs(told.y())) << timescale;
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(SubstepAndTimescale);
 
 }  // namespace
 }  // namespace wetcloth_test::substep_and_timescale_test

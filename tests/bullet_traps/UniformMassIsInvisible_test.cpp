@@ -6,6 +6,7 @@
 #include "tests/support/BodyScene.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
+#include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
 #include "tests/support/Measures.h"
 #include "tests/support/Patches.h"
@@ -16,10 +17,8 @@ namespace wetcloth_test::uniform_mass_is_invisible_test {
 
 namespace {
 
-using UniformMassIsInvisible = testing::TestWithParam<WorldKind>;
-
 // The fact. 2 is a power of the float's base, so not even rounding differs.
-TEST_P(UniformMassIsInvisible, InPlainBullet) {
+TEST_IN_POSITION_BASED_WORLDS(UniformMassIsInvisible, InPlainBullet) {
   BodyScene light(GetParam(), hangingPatch(8));
   BodyScene heavy(GetParam(), [](btSoftBodyWorldInfo& info) {
     wetcloth::ClothPatch patch = hangingPatch(8);
@@ -31,7 +30,7 @@ TEST_P(UniformMassIsInvisible, InPlainBullet) {
   EXPECT_TRUE(sameBits(stateOf(light.body()), stateOf(heavy.body())));
 }
 
-TEST_P(UniformMassIsInvisible, AWetClothHangsLikeADryOne) {
+TEST_IN_POSITION_BASED_WORLDS(UniformMassIsInvisible, AWetClothHangsLikeADryOne) {
   BodyScene dry(GetParam(), hangingPatch(8));
   BodyScene soaked(GetParam(), hangingPatch(8));
   wetcloth::WetClothWorld wet(soaked.world());
@@ -44,7 +43,7 @@ TEST_P(UniformMassIsInvisible, AWetClothHangsLikeADryOne) {
   EXPECT_TRUE(sameBits(stateOf(soaked.body()), stateOf(dry.body())));
 }
 
-TEST_P(UniformMassIsInvisible, AClothThatSoaksEvenlyHangsLikeADryOne) {
+TEST_IN_POSITION_BASED_WORLDS(UniformMassIsInvisible, AClothThatSoaksEvenlyHangsLikeADryOne) {
   BodyScene dry(GetParam(), hangingPatch(8));
   BodyScene soaked(GetParam(), hangingPatch(8));
   wetcloth::WetClothWorld wet(soaked.world());
@@ -59,9 +58,6 @@ TEST_P(UniformMassIsInvisible, AClothThatSoaksEvenlyHangsLikeADryOne) {
   EXPECT_NEAR(totalLength(soaked.body()) / totalLength(dry.body()), 1, 1e-3);
   EXPECT_NEAR(meanPosition(soaked.body()).y(), meanPosition(dry.body()).y(), 1e-3);
 }
-
-INSTANTIATE_TEST_SUITE_P(, UniformMassIsInvisible, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
-                         [](const auto& test) { return std::string(nameOf(test.param)); });
 
 }  // namespace
 }  // namespace wetcloth_test::uniform_mass_is_invisible_test

@@ -22,9 +22,12 @@ Outcome runProgram(const std::vector<std::string>& words);
 /// Runs `wetcloth` with these arguments.
 Outcome runWetcloth(const std::vector<std::string>& arguments);
 
-/// Runs a scene file, which must succeed, in this test program's precision; returns its results.
+/// Runs a scene file, which must succeed, in this test program's precision; returns its results. Plain Bullet is not
+/// run beside it, which takes as long again.
 Json runScene(const std::string& file, const std::vector<std::string>& more = {});
 Json runScene(const Json& scene, const std::vector<std::string>& more = {});
+/// The same beside plain Bullet.
+Json runCompared(const std::string& file, const std::vector<std::string>& more = {});
 
 /// One line on standard error with all these words in it, nothing on standard output, status 2.
 void expectRefusal(const Outcome& outcome, const std::vector<std::string>& words);

@@ -46,12 +46,18 @@ Outcome runWetcloth(const std::vector<std::string>& arguments) {
   return runProgram(words);
 }
 
-Json runScene(const std::string& file, const std::vector<std::string>& more) {
+Json runCompared(const std::string& file, const std::vector<std::string>& more) {
   std::vector<std::string> arguments{"run", file, "--json", "-", "--precision", testedPrecision()};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const Outcome outcome = runWetcloth(arguments);
   EXPECT_EQ(outcome.status, 0) << file << ": " << outcome.err;
   return outcome.status == 0 ? Json::parse(outcome.out) : Json();
+}
+
+Json runScene(const std::string& file, const std::vector<std::string>& more) {
+  std::vector<std::string> alone = more;
+  alone.emplace_back("--no-comparison");
+  return runCompared(file, alone);
 }
 
 Json runScene(const Json& scene, const std::vector<std::string>& more) {

@@ -20,7 +20,7 @@ TEST(Run, EveryExampleSceneGivesAllKeys) {
   ASSERT_GE(files.size(), 8u);
   for (const std::string& file : files) {
     SCOPED_TRACE(file);
-    const Json result = runScene(file, {"--duration", "0.1"});
+    const Json result = runCompared(file, {"--duration", "0.1"});
     for (const char* key :
          {"scene", "world", "precision", "steps", "dt", "nodes", "links", "effects", "wall_ms_per_step",
           "bullet_ms_per_step", "ledger", "saturation", "centre_of_mass", "max_speed", "max_stretch", "state_hash"}) {
@@ -160,6 +160,19 @@ TEST(Run, WithoutJsonPrintsASummaryAndWithAFilePrintsBoth) {
   EXPECT_EQ(outcome.status, 0);
   EXPECT_NE(outcome.out.find("state hash"), std::string::npos);
   EXPECT_TRUE(readJson(directory.path("result.json")).contains("state_hash"));
+}
+
+TEST(Run, WithoutTheComparisonAllButBulletsTimeIsTheSame) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("scene.json", smallScene().dump());
+  Json compared = runCompared(file);
+  Json alone = runCompared(file, {"--no-comparison"});
+  EXPECT_EQ(compared.erase("bullet_ms_per_step"), 1u);
+  EXPECT_GT(alone.at("wall_ms_per_step"), 0);
+  for (Json* report : {&compared, &alone}) report->erase("wall_ms_per_step");
+  EXPECT_EQ(alone, compared);
+  EXPECT_NE(runWetcloth({"run", file}).out.find("; plain Bullet "), std::string::npos);
+  EXPECT_EQ(runWetcloth({"run", file, "--no-comparison"}).out.find("plain Bullet"), std::string::npos);
 }
 
 TEST(Run, ARunThatIsRefusedLeavesNoFile) {

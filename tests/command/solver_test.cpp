@@ -52,7 +52,8 @@ TEST(RunSolver, TheReportSaysWhoStepped) {
   for (const char* world : {"soft_rigid", "soft_multibody"}) {
     Json scene = hangingScene({{"small_steps", 12}});
     scene["world"] = world;
-    const Json ours = runScene(scene);
+    const TemporaryDirectory directory;
+    const Json ours = runCompared(directory.write("scene.json", scene.dump()));
     EXPECT_EQ(ours.at("solver"), "wetcloth");
     EXPECT_EQ(ours.at("small_steps"), 12);
     EXPECT_FALSE(ours.contains("solver_reasons"));

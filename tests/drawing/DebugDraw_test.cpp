@@ -62,13 +62,13 @@ btVector3 vectorOf(const wetcloth::Colour& colour) {
 }
 
 /// Rests at the origin, level: no gravity, no air.
-class DebugDraw : public InEveryWorld {
+class DebugDraw {
  protected:
   ClothScene scene{GetParam(), btVector3(0, 0, 0), levelPatch(5, 1)};
   const std::size_t faces = 2 * 4 * 4;
 };
 
-TEST_P(DebugDraw, DrawsEachTriangleOnceAndNothingElseWithoutWind) {
+TEST_F_IN_EVERY_WORLD(DebugDraw, DrawsEachTriangleOnceAndNothingElseWithoutWind) {
   const RecordingDrawer drawer = drawn(scene);
   ASSERT_EQ(drawer.triangles.size(), faces);
   EXPECT_TRUE(drawer.lines.empty());
@@ -80,7 +80,7 @@ TEST_P(DebugDraw, DrawsEachTriangleOnceAndNothingElseWithoutWind) {
   EXPECT_NEAR(area, 1, 1e-6);
 }
 
-TEST_P(DebugDraw, ColoursChangeWithTheSaturation) {
+TEST_F_IN_EVERY_WORLD(DebugDraw, ColoursChangeWithTheSaturation) {
   for (const double saturation : {0.0, 0.3, 0.5, 1.0}) {
     scene.cloth().setSaturation(saturation);
     for (const auto& triangle : drawn(scene).triangles) {
@@ -89,7 +89,7 @@ TEST_P(DebugDraw, ColoursChangeWithTheSaturation) {
   }
 }
 
-TEST_P(DebugDraw, ATriangleHasTheMeanOfItsCorners) {
+TEST_F_IN_EVERY_WORLD(DebugDraw, ATriangleHasTheMeanOfItsCorners) {
   std::vector<double> held(std::size_t(scene.cloth().nodeCount()), 0.0);
   held[12] = scene.cloth().capacity(12);  // the middle one
   scene.cloth().setHeld(held);
@@ -103,7 +103,7 @@ TEST_P(DebugDraw, ATriangleHasTheMeanOfItsCorners) {
   EXPECT_GE(touched, 4u);
 }
 
-TEST_P(DebugDraw, TheWindIsALineDownwindFromEachTrianglesCentre) {
+TEST_F_IN_EVERY_WORLD(DebugDraw, TheWindIsALineDownwindFromEachTrianglesCentre) {
   scene.cloth().add<Wind>({btVector3(0, -4, 3)});
   // The level cloth feels the part across it alone: 1/2 rho C_d u^2 = 0.5 x 1.225 x 1.2 x 16 Pa.
   const double pressure = 0.5 * 1.225 * 1.2 * 16;
@@ -122,7 +122,7 @@ TEST_P(DebugDraw, TheWindIsALineDownwindFromEachTrianglesCentre) {
   EXPECT_EQ(drawn(scene, 0).triangles.size(), faces);
 }
 
-TEST_P(DebugDraw, AClothThatMovesWithTheWindFeelsNone) {
+TEST_F_IN_EVERY_WORLD(DebugDraw, AClothThatMovesWithTheWindFeelsNone) {
   scene.cloth().add<Wind>({btVector3(0, -4, 0)});
   setVelocity(scene.body(), btVector3(0, -4, 0));
   EXPECT_TRUE(drawn(scene).lines.empty());
@@ -130,7 +130,7 @@ TEST_P(DebugDraw, AClothThatMovesWithTheWindFeelsNone) {
   for (const auto& line : drawn(scene).lines) EXPECT_GT(line.to.y(), line.from.y());
 }
 
-TEST_P(DebugDraw, TheFunctionOfAGustIsAskedForNowAndThere) {
+TEST_F_IN_EVERY_WORLD(DebugDraw, TheFunctionOfAGustIsAskedForNowAndThere) {
   scene.step(10, kExactSubstep);
   double asked = -1;
   scene.cloth().add<Wind>({[&](const btVector3& position, double time) {
@@ -143,7 +143,7 @@ TEST_P(DebugDraw, TheFunctionOfAGustIsAskedForNowAndThere) {
   for (const auto& line : drawer.lines) EXPECT_GT(line.from.x(), 0);
 }
 
-TEST_P(DebugDraw, ThePapersWindIsThreeCornersForcesOverTheArea) {
+TEST_F_IN_EVERY_WORLD(DebugDraw, ThePapersWindIsThreeCornersForcesOverTheArea) {
   Wind::Parameters paper;
   paper.law = Wind::Law::paper;
   paper.velocity = btVector3(0, -1.5, 0);
@@ -152,7 +152,7 @@ TEST_P(DebugDraw, ThePapersWindIsThreeCornersForcesOverTheArea) {
   expectNear(wind.traction(scene.body().m_faces[0], 0), btVector3(0, btScalar(-3 * 1e-3 * 1.5 / area), 0), 1e-5);
 }
 
-TEST_P(DebugDraw, LinearDragAndSkinFrictionAreInIt) {
+TEST_F_IN_EVERY_WORLD(DebugDraw, LinearDragAndSkinFrictionAreInIt) {
   Wind::Parameters linear;
   linear.law = Wind::Law::linear;
   linear.linearDrag = 0.3;
@@ -166,13 +166,13 @@ TEST_P(DebugDraw, LinearDragAndSkinFrictionAreInIt) {
              btVector3(btScalar(0.5 * 1.225 * 0.1 * 25), 0, 0), 1e-5);
 }
 
-TEST_P(DebugDraw, ATriangleWithoutAreaFeelsNothing) {
+TEST_F_IN_EVERY_WORLD(DebugDraw, ATriangleWithoutAreaFeelsNothing) {
   scene.cloth().add<Wind>({btVector3(0, -4, 3)});
   for (int i = 0; i < scene.cloth().nodeCount(); ++i) scene.node(i).m_x.setZero();
   EXPECT_TRUE(drawn(scene).lines.empty());
 }
 
-TEST_P(DebugDraw, ChangesNothing) {
+TEST_F_IN_EVERY_WORLD(DebugDraw, ChangesNothing) {
   ClothScene other(GetParam(), btVector3(0, 0, 0), levelPatch(5, 1));
   for (ClothScene* each : {&scene, &other}) {
     each->cloth().add<Wind>({btVector3(1, -4, 0)});
@@ -189,14 +189,14 @@ TEST_P(DebugDraw, ChangesNothing) {
   }
 }
 
-TEST_P(DebugDraw, LeavesOutABodyThatIsNotInTheWorld) {
+TEST_F_IN_EVERY_WORLD(DebugDraw, LeavesOutABodyThatIsNotInTheWorld) {
   scene.bullet().remove(scene.body());
   EXPECT_TRUE(drawn(scene).triangles.empty());
   scene.bullet().add(scene.body());
   EXPECT_EQ(drawn(scene).triangles.size(), faces);
 }
 
-TEST_P(DebugDraw, NodesThatACutHasJustMadeAreDry) {
+TEST_F_IN_EVERY_WORLD(DebugDraw, NodesThatACutHasJustMadeAreDry) {
   scene.cloth().setSaturation(1);
   scene.body().appendNode(btVector3(0, 1, 0), 1);
   scene.body().appendFace(0, 1, scene.body().m_nodes.size() - 1);
@@ -205,13 +205,11 @@ TEST_P(DebugDraw, NodesThatACutHasJustMadeAreDry) {
   expectNear(drawer.triangles.back().colour, vectorOf(saturationColour(2.0 / 3)), 1e-6);
 }
 
-TEST_P(DebugDraw, AScaleThatIsNotFiniteIsRefused) {
+TEST_F_IN_EVERY_WORLD(DebugDraw, AScaleThatIsNotFiniteIsRefused) {
   for (const double bad : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_NE(rejection([&] { drawn(scene, bad); }).find("metresPerPascal"), std::string::npos);
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(DebugDraw);
 
 TEST(SaturationColour, DarkensSteadilyAndEndsAtItsEnds) {
   const auto brightness = [](const wetcloth::Colour& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; };

@@ -46,13 +46,13 @@ wetcloth::Fabric colourful() {
   return fabric;
 }
 
-class FilledVertexBuffer : public InEveryWorld {
+class FilledVertexBuffer {
  protected:
   ClothScene scene{GetParam(), btVector3(0, 0, 0), levelPatch(7, 1), colourful()};
   const int nodes = scene.cloth().nodeCount();
 };
 
-TEST_P(FilledVertexBuffer, HasWhatTheClothSaysOfEachNode) {
+TEST_F_IN_EVERY_WORLD(FilledVertexBuffer, HasWhatTheClothSaysOfEachNode) {
   std::vector<double> held;
   for (int i = 0; i < nodes; ++i) held.push_back(scene.cloth().capacity(i) * i / (nodes - 5.0));  // some too full
   scene.cloth().setHeld(held);
@@ -76,7 +76,7 @@ TEST_P(FilledVertexBuffer, HasWhatTheClothSaysOfEachNode) {
   EXPECT_LT(filled.at(nodes - 1, 11), filled.at(0, 11));  // and smoother
 }
 
-TEST_P(FilledVertexBuffer, NormalsOfAFlatPatchPointAcrossIt) {
+TEST_F_IN_EVERY_WORLD(FilledVertexBuffer, NormalsOfAFlatPatchPointAcrossIt) {
   scene.step(1);
   Interleaved filled(nodes);
   fillVertexBuffer(scene.cloth(), filled.buffer);
@@ -89,7 +89,7 @@ TEST_P(FilledVertexBuffer, NormalsOfAFlatPatchPointAcrossIt) {
 }
 
 // Bent to an arc of radius 1 about the z axis: the normal is the direction from the axis.
-TEST_P(FilledVertexBuffer, NormalsOfACurvedPatchPointFromItsAxis) {
+TEST_F_IN_EVERY_WORLD(FilledVertexBuffer, NormalsOfACurvedPatchPointFromItsAxis) {
   for (int i = 0; i < nodes; ++i) {
     const btScalar angle = scene.node(i).m_x.x();
     scene.node(i).m_x = btVector3(std::sin(angle), std::cos(angle), scene.node(i).m_x.z());
@@ -108,7 +108,7 @@ TEST_P(FilledVertexBuffer, NormalsOfACurvedPatchPointFromItsAxis) {
   EXPECT_GT(double((filled.vector(24, 3) * side).dot(btVector3(0, 1, 0))), 0.9999);  // the middle, by symmetry
 }
 
-TEST_P(FilledVertexBuffer, PositionsAndNormalsAreThoseOfBulletsOwnCopy) {
+TEST_F_IN_EVERY_WORLD(FilledVertexBuffer, PositionsAndNormalsAreThoseOfBulletsOwnCopy) {
   scene.step(2);
   Interleaved ours(nodes);
   ours.buffer.colour.stride = ours.buffer.roughness.stride = 0;
@@ -119,7 +119,7 @@ TEST_P(FilledVertexBuffer, PositionsAndNormalsAreThoseOfBulletsOwnCopy) {
   EXPECT_EQ(ours.floats, bullets.floats);
 }
 
-TEST_P(FilledVertexBuffer, WhatIsNotWantedIsNotWritten) {
+TEST_F_IN_EVERY_WORLD(FilledVertexBuffer, WhatIsNotWantedIsNotWritten) {
   Interleaved filled(nodes);
   filled.buffer.position.stride = filled.buffer.normal.stride = filled.buffer.colour.stride = 0;
   fillVertexBuffer(scene.cloth(), filled.buffer);
@@ -129,7 +129,7 @@ TEST_P(FilledVertexBuffer, WhatIsNotWantedIsNotWritten) {
   }
 }
 
-TEST_P(FilledVertexBuffer, MayBePlanesOneAfterTheOther) {
+TEST_F_IN_EVERY_WORLD(FilledVertexBuffer, MayBePlanesOneAfterTheOther) {
   std::vector<float> floats(std::size_t(10 * nodes), kUntouched);
   const VertexBuffer planes = {floats.data(), nodes, {0, 3}, {3 * nodes, 3}, {6 * nodes, 3}, {9 * nodes, 1}};
   fillVertexBuffer(scene.cloth(), planes);
@@ -139,7 +139,7 @@ TEST_P(FilledVertexBuffer, MayBePlanesOneAfterTheOther) {
   for (std::size_t i = std::size_t(6 * nodes); i < floats.size(); ++i) EXPECT_NE(floats[i], kUntouched);
 }
 
-TEST_P(FilledVertexBuffer, NodesThatACutHasJustMadeAreDry) {
+TEST_F_IN_EVERY_WORLD(FilledVertexBuffer, NodesThatACutHasJustMadeAreDry) {
   scene.cloth().setSaturation(1);
   scene.body().appendNode(btVector3(0, 1, 0), 1);
   Interleaved filled(nodes + 1);
@@ -153,7 +153,7 @@ struct BadBuffer {
   void (*spoil)(VertexBuffer&);
 };
 
-TEST_P(FilledVertexBuffer, BadBuffersAreRefusedAndNothingIsWritten) {
+TEST_F_IN_EVERY_WORLD(FilledVertexBuffer, BadBuffersAreRefusedAndNothingIsWritten) {
   const BadBuffer bads[] = {
       {"VertexBuffer.base", [](VertexBuffer& b) { b.base = nullptr; }},
       {"VertexBuffer.vertexCount = 48: must be the number of nodes, 49", [](VertexBuffer& b) { --b.vertexCount; }},
@@ -174,8 +174,6 @@ TEST_P(FilledVertexBuffer, BadBuffersAreRefusedAndNothingIsWritten) {
     for (const float value : filled.floats) ASSERT_EQ(value, kUntouched) << bad.word;
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(FilledVertexBuffer);
 
 }  // namespace
 }  // namespace wetcloth_test::vertex_buffer_test

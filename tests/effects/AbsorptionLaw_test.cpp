@@ -252,9 +252,7 @@ TEST(AbsorptionLaw, TheThreeFabricsOfTableI) {
   }
 }
 
-using AbsorptionInWorld = InEveryWorld;
-
-TEST_P(AbsorptionInWorld, FollowsTheClosedFormWhileTheClothFalls) {
+TEST_IN_EVERY_WORLD(AbsorptionInWorld, FollowsTheClosedFormWhileTheClothFalls) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   scene.cloth().add<Absorption>();
   scene.step(512, kExactSubstep);
@@ -264,7 +262,7 @@ TEST_P(AbsorptionInWorld, FollowsTheClosedFormWhileTheClothFalls) {
   EXPECT_NEAR(freeMass(scene.body()) / 0.150, 1 + 0.84 * closedForm(2, kTheta), kIsDouble ? 1e-12 : 1e-6);
 }
 
-TEST_P(AbsorptionInWorld, PinnedNodesHoldWaterAndStayPinned) {
+TEST_IN_EVERY_WORLD(AbsorptionInWorld, PinnedNodesHoldWaterAndStayPinned) {
   wetcloth::ClothPatch patch = levelPatch(5, 1);
   patch.pinnedEdges = {wetcloth::ClothPatch::Edge::top};
   ClothScene scene(GetParam(), kEarthGravity, patch);
@@ -276,8 +274,6 @@ TEST_P(AbsorptionInWorld, PinnedNodesHoldWaterAndStayPinned) {
     EXPECT_EQ(scene.node(node).m_x.y(), 0);
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(AbsorptionInWorld);
 
 }  // namespace
 }  // namespace wetcloth_test::absorption_law_test

@@ -76,10 +76,8 @@ class Handled {
   bool m_lifts = false;
 };
 
-using ClingOnBodies = InEveryWorld;
-
 // It slides over the edge with 0.28 of its weight, and then falls with all of it.
-TEST_P(ClingOnBodies, AtAnEdgeItIsLetGoNodeByNode) {
+TEST_IN_EVERY_WORLD(ClingOnBodies, AtAnEdgeItIsLetGoNodeByNode) {
   const btVector3 gravity(btScalar(-kGravity), -3, 0);
   OwnedShape wall;
   wall.shape = box(0.3, 0.05, 1);
@@ -102,7 +100,7 @@ TEST_P(ClingOnBodies, AtAnEdgeItIsLetGoNodeByNode) {
   expectFreeFall(cloth, gravity);
 }
 
-TEST_P(ClingOnBodies, AClothThatIsPutElsewhereFalls) {
+TEST_IN_EVERY_WORLD(ClingOnBodies, AClothThatIsPutElsewhereFalls) {
   OnBody cloth(GetParam(), BodyShape::box);
   Cling& cling = clings(cloth, 50, 20);
   cloth.scene.step(60);
@@ -112,7 +110,7 @@ TEST_P(ClingOnBodies, AClothThatIsPutElsewhereFalls) {
   EXPECT_EQ(cling.bonds(), 0);
 }
 
-TEST_P(ClingOnBodies, HangsFromEveryShapeByTheNodesThatTouchIt) {
+TEST_IN_EVERY_WORLD(ClingOnBodies, HangsFromEveryShapeByTheNodesThatTouchIt) {
   for (const BodyShape shape : kBodyShapes) {
     for (const BodyMotion motion : kBodyMotions) {
       if (!canBe(shape, motion)) continue;
@@ -133,7 +131,7 @@ TEST_P(ClingOnBodies, HangsFromEveryShapeByTheNodesThatTouchIt) {
   }
 }
 
-TEST_P(ClingOnBodies, NothingHoldsWhereTheBodyNoLongerIs) {
+TEST_IN_EVERY_WORLD(ClingOnBodies, NothingHoldsWhereTheBodyNoLongerIs) {
   for (const BodyShape shape : kBodyShapes) {
     for (const BodyMotion motion : kBodyMotions) {
       for (const BodyEvent event : kBodyEvents) {
@@ -160,7 +158,7 @@ TEST_P(ClingOnBodies, NothingHoldsWhereTheBodyNoLongerIs) {
   }
 }
 
-TEST_P(ClingOnBodies, LetsGoOfABoxThatChanged) {
+TEST_IN_EVERY_WORLD(ClingOnBodies, LetsGoOfABoxThatChanged) {
   for (const BodyEvent event : {BodyEvent::moved, BodyEvent::scaled, BodyEvent::swapped, BodyEvent::removed}) {
     OnBody cloth(GetParam(), BodyShape::box, BodyMotion::stays, kUpwards);
     Cling& cling = clings(cloth, 20 * kWeight, 20 * kWeight);
@@ -171,8 +169,6 @@ TEST_P(ClingOnBodies, LetsGoOfABoxThatChanged) {
     EXPECT_EQ(cling.bonds(), 0) << nameOf(event);
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(ClingOnBodies);
 
 TEST(ClingOnBodiesAsleep, WakesWhenTheShapeIsExchanged) {
   for (const BodyEvent event : {BodyEvent::moved, BodyEvent::scaled, BodyEvent::swapped}) {

@@ -55,9 +55,7 @@ Cling::Parameters stress(double adhesion, double shearStrength = 1000) {
   return parameters;
 }
 
-using ClingInWorld = InEveryWorld;
-
-TEST_P(ClingInWorld, HangsUnderACeilingIfTheAdhesionBearsItsWeight) {
+TEST_IN_EVERY_WORLD(ClingInWorld, HangsUnderACeilingIfTheAdhesionBearsItsWeight) {
   for (const double share : {1.03, 0.97}) {
     Stuck cloth(GetParam(), Stuck::ceiling);
     Cling& cling = cloth.scene.cloth().add<Cling>(stress(4 * cloth.weight()));
@@ -79,7 +77,7 @@ TEST_P(ClingInWorld, HangsUnderACeilingIfTheAdhesionBearsItsWeight) {
   }
 }
 
-TEST_P(ClingInWorld, StaysOnAWallIfTheShearStrengthBearsItsWeight) {
+TEST_IN_EVERY_WORLD(ClingInWorld, StaysOnAWallIfTheShearStrengthBearsItsWeight) {
   for (const double share : {1.03, 0.97}) {
     Stuck cloth(GetParam(), Stuck::wall);
     Cling& cling = cloth.scene.cloth().add<Cling>(stress(1000));
@@ -97,7 +95,7 @@ TEST_P(ClingInWorld, StaysOnAWallIfTheShearStrengthBearsItsWeight) {
   }
 }
 
-TEST_P(ClingInWorld, DryItIsAsIfItWereNotThere) {
+TEST_IN_EVERY_WORLD(ClingInWorld, DryItIsAsIfItWereNotThere) {
   for (const double saturation : {0.0, 0.09}) {
     Stuck with(GetParam(), Stuck::ceiling, saturation);
     Stuck without(GetParam(), Stuck::ceiling, saturation);
@@ -109,7 +107,7 @@ TEST_P(ClingInWorld, DryItIsAsIfItWereNotThere) {
   }
 }
 
-TEST_P(ClingInWorld, OnAFloorItPressesNowhere) {
+TEST_IN_EVERY_WORLD(ClingInWorld, OnAFloorItPressesNowhere) {
   ClothScene scene(GetParam(), kEarthGravity, Lying().builder(GetParam()));
   RigidBody floor(scene.bullet(), box(5, 0.5, 5), 0, {0, -0.5, 0});
   scene.addBulletSpringsForStep();
@@ -120,7 +118,7 @@ TEST_P(ClingInWorld, OnAFloorItPressesNowhere) {
   EXPECT_LT(largestSpeed(scene.body()), 0.02);
 }
 
-TEST_P(ClingInWorld, DryingLetsItGo) {
+TEST_IN_EVERY_WORLD(ClingInWorld, DryingLetsItGo) {
   Stuck cloth(GetParam(), Stuck::ceiling);
   Cling& cling = cloth.scene.cloth().add<Cling>();
   cloth.scene.step(60);
@@ -132,7 +130,7 @@ TEST_P(ClingInWorld, DryingLetsItGo) {
 }
 
 // Pulled off with a force per area that grows by 10 Pa a second; weight counts.
-TEST_P(ClingInWorld, ComesOffASphereAtItsAdhesion) {
+TEST_IN_EVERY_WORLD(ClingInWorld, ComesOffASphereAtItsAdhesion) {
   Lying lying;
   lying.n = 2;
   lying.side = 0.04;
@@ -162,7 +160,7 @@ TEST_P(ClingInWorld, ComesOffASphereAtItsAdhesion) {
   EXPECT_LT(largestSpeed(scene.body()), 5 * net * kSubstep);
 }
 
-TEST_P(ClingInWorld, ABondThatLetsGoAddsNoEnergy) {
+TEST_IN_EVERY_WORLD(ClingInWorld, ABondThatLetsGoAddsNoEnergy) {
   Stuck cloth(GetParam(), Stuck::ceiling);
   Cling& cling = cloth.scene.cloth().add<Cling>(stress(4 * cloth.weight()));
   cloth.scene.step(120);
@@ -184,7 +182,7 @@ TEST_P(ClingInWorld, ABondThatLetsGoAddsNoEnergy) {
 // -------------------------------------------------------------------------------------------
 
 // No gravity; the cloth is thrown along a floating box that it clings to.
-TEST_P(ClingInWorld, TheBodyGetsWhatTheClothLoses) {
+TEST_IN_EVERY_WORLD(ClingInWorld, TheBodyGetsWhatTheClothLoses) {
   ClothScene scene(GetParam(), {0, 0, 0}, Stuck::below(GetParam()));
   RigidBody slab(scene.bullet(), box(0.5, 0.1, 0.5), 0.5, {0, btScalar(0.1), 0});
   slab.body().setFriction(0);
@@ -213,7 +211,7 @@ TEST_P(ClingInWorld, TheBodyGetsWhatTheClothLoses) {
   EXPECT_NEAR(double(slab.body().getLinearVelocity().x()), common, 0.05 * common) << "in the end both move alike";
 }
 
-TEST_P(ClingInWorld, GoesWithAKinematicBody) {
+TEST_IN_EVERY_WORLD(ClingInWorld, GoesWithAKinematicBody) {
   Stuck cloth(GetParam(), Stuck::ceiling);
   Cling& cling = cloth.scene.cloth().add<Cling>(stress(200, 200));
   btRigidBody& slab = cloth.slab.body();
@@ -231,7 +229,7 @@ TEST_P(ClingInWorld, GoesWithAKinematicBody) {
   EXPECT_NEAR(cloth.centre()[1], 0.1 - kMargin, 0.005);
 }
 
-TEST_P(ClingInWorld, LetsGoOfABodyThatLeavesTheWorld) {
+TEST_IN_EVERY_WORLD(ClingInWorld, LetsGoOfABodyThatLeavesTheWorld) {
   Lying lying;
   lying.height = -0.99 * kMargin;
   ClothScene scene(GetParam(), kEarthGravity, lying.builder(GetParam()));
@@ -247,7 +245,7 @@ TEST_P(ClingInWorld, LetsGoOfABodyThatLeavesTheWorld) {
   EXPECT_EQ(cling.bonds(), 0);
 }
 
-TEST_P(ClingInWorld, HoldsOnThroughACut) {
+TEST_IN_EVERY_WORLD(ClingInWorld, HoldsOnThroughACut) {
   Stuck cloth(GetParam(), Stuck::ceiling);
   cloth.scene.wet().setLog({});
   Cling& cling = cloth.scene.cloth().add<Cling>(stress(2000));
@@ -259,7 +257,7 @@ TEST_P(ClingInWorld, HoldsOnThroughACut) {
   EXPECT_TRUE(isFinite(body));
 }
 
-TEST_P(ClingInWorld, IsFiniteForAnyStep) {
+TEST_IN_EVERY_WORLD(ClingInWorld, IsFiniteForAnyStep) {
   for (const double dt : {1e-6, 1e-2, 1.0, 1e3}) {
     Stuck cloth(GetParam(), Stuck::ceiling);
     cloth.scene.cloth().add<Cling>();
@@ -291,8 +289,6 @@ TEST(ClingAsleep, WakesWhenItsHoldGoes) {
     EXPECT_LT(centreOfMass(scene.body())[1], -0.5) << moves;
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(ClingInWorld);
 
 }  // namespace
 }  // namespace wetcloth_test::cling_test

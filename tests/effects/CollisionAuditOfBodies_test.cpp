@@ -59,12 +59,10 @@ class TwoSheets {
   std::unique_ptr<btSoftBody> m_upper;
 };
 
-using AuditOfBodies = InEveryWorld;
-
 // 3 x 3 nodes, the upper sheet moved by a little along x and z. A vertex of each goes through the other where it lies
 // over it: (n - 1)^2 = 4 of the upper sheet's, whose last row and column are outside, and 4 of the lower sheet's, whose
 // first row and column are. Of the edges seen from above see crossings().
-TEST_P(AuditOfBodies, SheetThroughSheetInClosedForm) {
+TEST_IN_EVERY_WORLD(AuditOfBodies, SheetThroughSheetInClosedForm) {
   TwoSheets sheets(GetParam(), 3);
   wetcloth::WetClothWorld wet(sheets.lower.world());
   CollisionAudit& audit = wet.add(sheets.lower.body()).add<CollisionAudit>();
@@ -76,7 +74,7 @@ TEST_P(AuditOfBodies, SheetThroughSheetInClosedForm) {
 }
 
 // Whichever cloth has the audit, and if both have one, each passage is counted once.
-TEST_P(AuditOfBodies, EachPairOnceWhateverTheOrder) {
+TEST_IN_EVERY_WORLD(AuditOfBodies, EachPairOnceWhateverTheOrder) {
   std::vector<long long> counted;
   for (const int audited : {1, 2, 3}) {
     for (const bool upperFirst : {false, true}) {
@@ -103,7 +101,7 @@ TEST_P(AuditOfBodies, EachPairOnceWhateverTheOrder) {
   for (const long long count : counted) EXPECT_EQ(count, counted.front());
 }
 
-TEST_P(AuditOfBodies, OthersCanBeTurnedOff) {
+TEST_IN_EVERY_WORLD(AuditOfBodies, OthersCanBeTurnedOff) {
   TwoSheets sheets(GetParam(), 3);
   wetcloth::WetClothWorld wet(sheets.lower.world());
   CollisionAudit::Parameters parameters;
@@ -133,13 +131,13 @@ std::vector<btScalar> crumple(WorldKind kind, bool audited, long long* candidate
   return stateOf(scene.body());
 }
 
-TEST_P(AuditOfBodies, ChangesNothing) {
+TEST_IN_EVERY_WORLD(AuditOfBodies, ChangesNothing) {
   long long candidates = 0;
   EXPECT_TRUE(sameBits(crumple(GetParam(), false), crumple(GetParam(), true, &candidates)));
   EXPECT_GT(candidates, 1000);
 }
 
-TEST_P(AuditOfBodies, DoesNotWakeASleepingCloth) {
+TEST_IN_EVERY_WORLD(AuditOfBodies, DoesNotWakeASleepingCloth) {
   BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
   CollisionAudit& audit = wet.add(scene.body()).add<CollisionAudit>();
@@ -149,7 +147,7 @@ TEST_P(AuditOfBodies, DoesNotWakeASleepingCloth) {
   EXPECT_EQ(audit.totals().substeps, 3) << "it looks all the same";
 }
 
-TEST_P(AuditOfBodies, GoesOnAfterACut) {
+TEST_IN_EVERY_WORLD(AuditOfBodies, GoesOnAfterACut) {
   TwoSheets sheets(GetParam(), 5);
   wetcloth::WetClothWorld wet(sheets.lower.world());
   wet.setLog({});
@@ -165,7 +163,7 @@ TEST_P(AuditOfBodies, GoesOnAfterACut) {
   EXPECT_GE(audit.totals().vertexFace, 16 + 16);
 }
 
-TEST_P(AuditOfBodies, OtherBodiesMayComeAndGo) {
+TEST_IN_EVERY_WORLD(AuditOfBodies, OtherBodiesMayComeAndGo) {
   TwoSheets sheets(GetParam(), 4);
   wetcloth::WetClothWorld wet(sheets.lower.world());
   CollisionAudit& audit = wet.add(sheets.lower.body()).add<CollisionAudit>();
@@ -181,7 +179,7 @@ TEST_P(AuditOfBodies, OtherBodiesMayComeAndGo) {
   EXPECT_EQ(audit.totals().passages(), 0);
 }
 
-TEST_P(AuditOfBodies, ItsOwnBodyMayLeaveAndComeBack) {
+TEST_IN_EVERY_WORLD(AuditOfBodies, ItsOwnBodyMayLeaveAndComeBack) {
   TwoSheets sheets(GetParam(), 4);
   wetcloth::WetClothWorld wet(sheets.lower.world());
   wet.setLog({});
@@ -195,7 +193,7 @@ TEST_P(AuditOfBodies, ItsOwnBodyMayLeaveAndComeBack) {
   EXPECT_EQ(audit.totals().passages(), 0);
 }
 
-TEST_P(AuditOfBodies, CanBeRemovedAndAddedAgain) {
+TEST_IN_EVERY_WORLD(AuditOfBodies, CanBeRemovedAndAddedAgain) {
   TwoSheets sheets(GetParam(), 4);
   wetcloth::WetClothWorld wet(sheets.lower.world());
   wetcloth::WetCloth& cloth = wet.add(sheets.lower.body());
@@ -218,7 +216,7 @@ void explode(btSoftBody& body, int round) {
   }
 }
 
-TEST_P(AuditOfBodies, AnExplodedSheetIsLookedAtUpToTheLimitWhichIsSaidOnce) {
+TEST_IN_EVERY_WORLD(AuditOfBodies, AnExplodedSheetIsLookedAtUpToTheLimitWhichIsSaidOnce) {
   for (const bool limited : {false, true}) {
     BodyScene scene(GetParam(), squarePatch(20), btVector3(0, 0, 0));
     wetcloth::WetClothWorld wet(scene.world());
@@ -261,7 +259,7 @@ class Lines : public btIDebugDraw {
 };
 
 // A cross has three lines; a face three, two edges two.
-TEST_P(AuditOfBodies, DrawsThePassagesOfTheLastSubstep) {
+TEST_IN_EVERY_WORLD(AuditOfBodies, DrawsThePassagesOfTheLastSubstep) {
   TwoSheets sheets(GetParam(), 3);
   wetcloth::WetClothWorld wet(sheets.lower.world());
   CollisionAudit& audit = wet.add(sheets.lower.body()).add<CollisionAudit>();
@@ -279,7 +277,7 @@ TEST_P(AuditOfBodies, DrawsThePassagesOfTheLastSubstep) {
   EXPECT_GT(drawn, 0);
 }
 
-TEST_P(AuditOfBodies, ARopeHasNothingToLookAt) {
+TEST_IN_EVERY_WORLD(AuditOfBodies, ARopeHasNothingToLookAt) {
   BodyScene scene(GetParam(), [](btSoftBodyWorldInfo& info) {
     return std::unique_ptr<btSoftBody>(
         btSoftBodyHelpers::CreateRope(info, btVector3(0, 0, 0), btVector3(1, 0, 0), 5, 1));
@@ -289,8 +287,6 @@ TEST_P(AuditOfBodies, ARopeHasNothingToLookAt) {
   EXPECT_THROW(cloth.add<CollisionAudit>(), std::invalid_argument);
   EXPECT_TRUE(cloth.effects().empty());
 }
-
-WETCLOTH_IN_EVERY_WORLD(AuditOfBodies);
 
 TEST(CollisionAuditTier, ExactIsRefusedWhereItIsNotBuilt) {
   CollisionAudit::Parameters parameters;

@@ -96,10 +96,8 @@ int crossingsSeenFromAbove(const btSoftBody& body, int still) {
   return crossings;
 }
 
-using AuditInEveryWorld = InEveryWorld;
-
 // Three vertices go through the inside of a face in different substeps, edges meet nothing.
-TEST_P(AuditInEveryWorld, CountsEachVertexThatGoesThroughAFaceOnce) {
+TEST_IN_EVERY_WORLD(AuditInEveryWorld, CountsEachVertexThatGoesThroughAFaceOnce) {
   TwoTriangles two(GetParam(), triangleAndSmallOne(-0.1));
   two.move({3, 4, 5}, at(0, 2, 0));
   two.step(40);
@@ -118,7 +116,7 @@ TEST_P(AuditInEveryWorld, CountsEachVertexThatGoesThroughAFaceOnce) {
 }
 
 // The face at y = 0, a vertex from y = -0.1 at 2 m/s: the contact is at 0.05 s, where the vertex is.
-TEST_P(AuditInEveryWorld, TellsWhenAndWhere) {
+TEST_IN_EVERY_WORLD(AuditInEveryWorld, TellsWhenAndWhere) {
   TwoTriangles two(GetParam(), triangleAndSmallOne(-0.1));
   two.move({3, 4, 5}, at(0, 2, 0));
   two.step(40);
@@ -132,7 +130,7 @@ TEST_P(AuditInEveryWorld, TellsWhenAndWhere) {
 }
 
 // Two upright triangles with an edge along x and one along z, which cross like scissors: one pair of edges meets.
-TEST_P(AuditInEveryWorld, CountsTwoEdgesThatCrossOnce) {
+TEST_IN_EVERY_WORLD(AuditInEveryWorld, CountsTwoEdgesThatCrossOnce) {
   TwoTriangles two(GetParam(),
                    {at(-1, 0, 0), at(1, 0, 0), at(0, -2, 0), at(0, 0.0625, -1), at(0, 0.0625, 1), at(0, 3, 0.25)});
   two.move({3, 4, 5}, at(0, -1, 0));
@@ -148,7 +146,7 @@ TEST_P(AuditInEveryWorld, CountsTwoEdgesThatCrossOnce) {
   EXPECT_EQ(two.audit().totals().passages(), 1);
 }
 
-TEST_P(AuditInEveryWorld, WhatTouchesAndReturnsIsNoPassage) {
+TEST_IN_EVERY_WORLD(AuditInEveryWorld, WhatTouchesAndReturnsIsNoPassage) {
   // 1/8 m at 1 m/s: the vertices are exactly in the plane after 32 substeps of 1/256 s.
   for (const double side : {-1.0, 1.0}) {
     TwoTriangles two(GetParam(), triangleAndSmallOne(side * 0.125));
@@ -162,7 +160,7 @@ TEST_P(AuditInEveryWorld, WhatTouchesAndReturnsIsNoPassage) {
   }
 }
 
-TEST_P(AuditInEveryWorld, WhatStopsInThePlaneAndGoesOnIsOnePassagePerVertex) {
+TEST_IN_EVERY_WORLD(AuditInEveryWorld, WhatStopsInThePlaneAndGoesOnIsOnePassagePerVertex) {
   for (const double side : {-1.0, 1.0}) {
     TwoTriangles two(GetParam(), triangleAndSmallOne(side * 0.125));
     two.move({3, 4, 5}, at(0, -side, 0));
@@ -177,7 +175,7 @@ TEST_P(AuditInEveryWorld, WhatStopsInThePlaneAndGoesOnIsOnePassagePerVertex) {
   }
 }
 
-TEST_P(AuditInEveryWorld, ThereAndBackIsTwoPassages) {
+TEST_IN_EVERY_WORLD(AuditInEveryWorld, ThereAndBackIsTwoPassages) {
   TwoTriangles two(GetParam(), triangleAndSmallOne(-0.1));
   two.move({3, 4, 5}, at(0, 2, 0));
   two.step(30);
@@ -188,7 +186,7 @@ TEST_P(AuditInEveryWorld, ThereAndBackIsTwoPassages) {
 }
 
 // Beside the face the side changes, too.
-TEST_P(AuditInEveryWorld, WhatPassesBesideIsNoPassage) {
+TEST_IN_EVERY_WORLD(AuditInEveryWorld, WhatPassesBesideIsNoPassage) {
   std::vector<btVector3> positions = triangleAndSmallOne(-0.1);
   for (std::size_t i = 3; i < 6; ++i) positions[i] += at(0.9, 0, 0.5);
   TwoTriangles two(GetParam(), positions);
@@ -198,7 +196,7 @@ TEST_P(AuditInEveryWorld, WhatPassesBesideIsNoPassage) {
   EXPECT_EQ(two.audit().totals().passages(), 0);
 }
 
-TEST_P(AuditInEveryWorld, SelfCanBeTurnedOff) {
+TEST_IN_EVERY_WORLD(AuditInEveryWorld, SelfCanBeTurnedOff) {
   CollisionAudit::Parameters parameters;
   parameters.self = false;
   TwoTriangles two(GetParam(), triangleAndSmallOne(-0.1), parameters);
@@ -208,7 +206,7 @@ TEST_P(AuditInEveryWorld, SelfCanBeTurnedOff) {
 }
 
 // The last substep is seen by look(), and not once more by the next step.
-TEST_P(AuditInEveryWorld, LookSeesThePendingSubstepOnce) {
+TEST_IN_EVERY_WORLD(AuditInEveryWorld, LookSeesThePendingSubstepOnce) {
   TwoTriangles two(GetParam(), triangleAndSmallOne(-0.001));
   two.move({3, 4, 5}, at(0, 2, 0));
   two.step(1);
@@ -227,7 +225,7 @@ TEST_P(AuditInEveryWorld, LookSeesThePendingSubstepOnce) {
   EXPECT_NEAR(two.audit().totals().perSecond(), 3 / (4 * kDt), 1e-6);
 }
 
-TEST_P(AuditInEveryWorld, AfterResetAMoveByHandIsNoMotion) {
+TEST_IN_EVERY_WORLD(AuditInEveryWorld, AfterResetAMoveByHandIsNoMotion) {
   for (const bool resets : {false, true}) {
     TwoTriangles two(GetParam(), triangleAndSmallOne(-0.1));
     two.step(2);
@@ -239,7 +237,7 @@ TEST_P(AuditInEveryWorld, AfterResetAMoveByHandIsNoMotion) {
   }
 }
 
-TEST_P(AuditInEveryWorld, NodesThatAreNotFiniteAreLeftOut) {
+TEST_IN_EVERY_WORLD(AuditInEveryWorld, NodesThatAreNotFiniteAreLeftOut) {
   TwoTriangles two(GetParam(), triangleAndSmallOne(-0.1));
   two.step(2);
   two.audit().look();
@@ -261,7 +259,7 @@ TEST_P(AuditInEveryWorld, NodesThatAreNotFiniteAreLeftOut) {
 
 // A folded strip: the upper half, which is narrower, goes straight down through the lower one. Each of its vertices
 // goes through one face, and the edges that pass are those that cross when seen from above.
-TEST_P(AuditInEveryWorld, AFoldedStripThatIsPulledThroughItself) {
+TEST_IN_EVERY_WORLD(AuditInEveryWorld, AFoldedStripThatIsPulledThroughItself) {
   const int rows = 6;
   std::vector<btVector3> positions;
   std::vector<std::array<int, 3>> faces;
@@ -289,8 +287,6 @@ TEST_P(AuditInEveryWorld, AFoldedStripThatIsPulledThroughItself) {
   EXPECT_GT(audit.totals().edgeEdge, 4 * (rows - 1));
   EXPECT_EQ(audit.totals().edgeEdge, crossingsSeenFromAbove(scene.body(), 2 * rows));
 }
-
-WETCLOTH_IN_EVERY_WORLD(AuditInEveryWorld);
 
 }  // namespace
 }  // namespace wetcloth_test::collision_audit_test

@@ -30,9 +30,7 @@ double saturationAfter(OnBody& cloth) {
   return cloth.scene.cloth().meanSaturation();
 }
 
-using ContactWettingOfBodies = InEveryWorld;
-
-TEST_P(ContactWettingOfBodies, OverlappingPartsCountOnce) {
+TEST_IN_EVERY_WORLD(ContactWettingOfBodies, OverlappingPartsCountOnce) {
   for (const int count : {1, 2, 4, 8}) {
     OnBody cloth(GetParam(), overlappingBoxes(count));
     wet(cloth);
@@ -42,7 +40,7 @@ TEST_P(ContactWettingOfBodies, OverlappingPartsCountOnce) {
   }
 }
 
-TEST_P(ContactWettingOfBodies, NoShapeGivesMoreThanItsArea) {
+TEST_IN_EVERY_WORLD(ContactWettingOfBodies, NoShapeGivesMoreThanItsArea) {
   for (const BodyShape shape : kBodyShapes) {
     OnBody cloth(GetParam(), shape);
     wet(cloth);
@@ -51,7 +49,7 @@ TEST_P(ContactWettingOfBodies, NoShapeGivesMoreThanItsArea) {
 }
 
 // The middle of the cloth lies on a corner of six triangles.
-TEST_P(ContactWettingOfBodies, TrianglesNearANodeShareIt) {
+TEST_IN_EVERY_WORLD(ContactWettingOfBodies, TrianglesNearANodeShareIt) {
   for (const int cells : {2, 4, 20}) {
     for (const double voxel : {0.25, 0.02}) {
       OnBody cloth(GetParam(), meshSquare(cells));
@@ -63,7 +61,7 @@ TEST_P(ContactWettingOfBodies, TrianglesNearANodeShareIt) {
   }
 }
 
-TEST_P(ContactWettingOfBodies, SeveralBodiesAtANodeShareIt) {
+TEST_IN_EVERY_WORLD(ContactWettingOfBodies, SeveralBodiesAtANodeShareIt) {
   OnBody cloth(GetParam(), BodyShape::box);
   Body second(cloth.scene.bullet(), BodyShape::box);
   wet(cloth).setFilm(second.body(), HUGE_VAL);
@@ -71,14 +69,12 @@ TEST_P(ContactWettingOfBodies, SeveralBodiesAtANodeShareIt) {
   EXPECT_GT(cloth.scene.cloth().meanSaturation(), 0.9 * most());
 }
 
-TEST_P(ContactWettingOfBodies, ADryBodyTakesNoShare) {
+TEST_IN_EVERY_WORLD(ContactWettingOfBodies, ADryBodyTakesNoShare) {
   OnBody cloth(GetParam(), BodyShape::box);
   Body second(cloth.scene.bullet(), BodyShape::box);
   wet(cloth).setFilm(second.body(), 0);
   EXPECT_GT(saturationAfter(cloth), 0.9 * most());
 }
-
-WETCLOTH_IN_EVERY_WORLD(ContactWettingOfBodies);
 
 // A body whose triangles collide, not its nodes.
 TEST(ContactWettingOfBodiesByTriangles, OverlappingPartsCountOnce) {

@@ -66,9 +66,7 @@ ContactWetting::Parameters atRate(double rate) {
   return parameters;
 }
 
-using ContactWettingOfCloths = InEveryWorld;
-
-TEST_P(ContactWettingOfCloths, TwoTowelsPressedTogetherBecomeEquallyWet) {
+TEST_IN_EVERY_WORLD(ContactWettingOfCloths, TwoTowelsPressedTogetherBecomeEquallyWet) {
   TwoTowels towels(GetParam());
   towels.lower().add<ContactWetting>(atRate(1));
   towels.upper().setSaturation(0.6);
@@ -79,7 +77,7 @@ TEST_P(ContactWettingOfCloths, TwoTowelsPressedTogetherBecomeEquallyWet) {
   EXPECT_NEAR(towels.held(), all, 1e-14 * all);
 }
 
-TEST_P(ContactWettingOfCloths, WhatOneDripsTheOtherAbsorbs) {
+TEST_IN_EVERY_WORLD(ContactWettingOfCloths, WhatOneDripsTheOtherAbsorbs) {
   TwoTowels towels(GetParam());
   towels.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
   towels.upper().setSaturation(0.6);
@@ -99,7 +97,7 @@ TEST_P(ContactWettingOfCloths, WhatOneDripsTheOtherAbsorbs) {
 
 // At the rate k, two sheets that touch all over lose their difference with the time C / (2 k), C their capacity per
 // area; contacts that come and go make it longer.
-TEST_P(ContactWettingOfCloths, TheRateIsPerAreaOfContactOnce) {
+TEST_IN_EVERY_WORLD(ContactWettingOfCloths, TheRateIsPerAreaOfContactOnce) {
   TwoTowels towels(GetParam());
   towels.scene.step(120);
   const double rate = 0.05;
@@ -118,7 +116,7 @@ TEST_P(ContactWettingOfCloths, TheRateIsPerAreaOfContactOnce) {
   EXPECT_LT(difference, 0.6 - 0.3 * (0.6 - fastest));
 }
 
-TEST_P(ContactWettingOfCloths, APairWithTheEffectOnBothIsSeenToOnce) {
+TEST_IN_EVERY_WORLD(ContactWettingOfCloths, APairWithTheEffectOnBothIsSeenToOnce) {
   TwoTowels once(GetParam());
   TwoTowels twice(GetParam());
   once.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
@@ -138,7 +136,7 @@ TEST_P(ContactWettingOfCloths, APairWithTheEffectOnBothIsSeenToOnce) {
   }
 }
 
-TEST_P(ContactWettingOfCloths, EitherOfTheTwoMayHaveTheEffect) {
+TEST_IN_EVERY_WORLD(ContactWettingOfCloths, EitherOfTheTwoMayHaveTheEffect) {
   TwoTowels towels(GetParam());
   towels.upper().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
   towels.upper().setSaturation(0.6);
@@ -147,7 +145,7 @@ TEST_P(ContactWettingOfCloths, EitherOfTheTwoMayHaveTheEffect) {
   EXPECT_NEAR(towels.lower().ledger().absorbed, towels.upper().ledger().dripped, 1e-16);
 }
 
-TEST_P(ContactWettingOfCloths, DryTowelsAreAsIfItWereNotThere) {
+TEST_IN_EVERY_WORLD(ContactWettingOfCloths, DryTowelsAreAsIfItWereNotThere) {
   TwoTowels with(GetParam());
   TwoTowels without(GetParam());
   ContactWetting& wetting = with.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
@@ -159,7 +157,7 @@ TEST_P(ContactWettingOfCloths, DryTowelsAreAsIfItWereNotThere) {
   EXPECT_TRUE(sameBits(stateOf(with.upperBody()), stateOf(without.upperBody())));
 }
 
-TEST_P(ContactWettingOfCloths, EquallyWetTowelsIdle) {
+TEST_IN_EVERY_WORLD(ContactWettingOfCloths, EquallyWetTowelsIdle) {
   TwoTowels towels(GetParam());
   ContactWetting& wetting = towels.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
   towels.lower().setSaturation(1);
@@ -168,7 +166,7 @@ TEST_P(ContactWettingOfCloths, EquallyWetTowelsIdle) {
   EXPECT_EQ(wetting.nodesVisited(), 0);
 }
 
-TEST_P(ContactWettingOfCloths, NoStepIsTooLong) {
+TEST_IN_EVERY_WORLD(ContactWettingOfCloths, NoStepIsTooLong) {
   TwoTowels towels(GetParam());
   towels.scene.step(120);
   towels.lower().add<ContactWetting>(atRate(10));
@@ -189,7 +187,7 @@ TEST_P(ContactWettingOfCloths, NoStepIsTooLong) {
 }
 
 // What leaves one cloth takes its nodes' velocity along, what arrives brings it.
-TEST_P(ContactWettingOfCloths, MomentumIsKept) {
+TEST_IN_EVERY_WORLD(ContactWettingOfCloths, MomentumIsKept) {
   TwoTowels towels(GetParam());
   towels.scene.step(120);
   for (int i = 0; i < 100 && towels.contacts() < 16; ++i) towels.scene.step(1);
@@ -205,7 +203,7 @@ TEST_P(ContactWettingOfCloths, MomentumIsKept) {
   EXPECT_NEAR(total(), before, (kIsDouble ? 1e-12 : 1e-5) * before);
 }
 
-TEST_P(ContactWettingOfCloths, ATowelThatIsDeletedIsNotLookedAt) {
+TEST_IN_EVERY_WORLD(ContactWettingOfCloths, ATowelThatIsDeletedIsNotLookedAt) {
   TwoTowels towels(GetParam());
   towels.scene.wet().setLog({});
   towels.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
@@ -218,7 +216,7 @@ TEST_P(ContactWettingOfCloths, ATowelThatIsDeletedIsNotLookedAt) {
   EXPECT_EQ(towels.lower().ledger().held, held);
 }
 
-TEST_P(ContactWettingOfCloths, GoesOnAfterACut) {
+TEST_IN_EVERY_WORLD(ContactWettingOfCloths, GoesOnAfterACut) {
   TwoTowels towels(GetParam());
   towels.scene.wet().setLog({});
   towels.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
@@ -231,8 +229,6 @@ TEST_P(ContactWettingOfCloths, GoesOnAfterACut) {
   }
   EXPECT_NEAR(towels.held(), all, 1e-13 * all);
 }
-
-WETCLOTH_IN_EVERY_WORLD(ContactWettingOfCloths);
 
 }  // namespace
 }  // namespace wetcloth_test::contact_wetting_of_cloths_test

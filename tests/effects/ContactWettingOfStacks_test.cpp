@@ -84,7 +84,7 @@ class Stack {
   std::vector<std::vector<btVector3>> m_places;
 };
 
-class ContactWettingOfStacks : public InEveryWorld {
+class ContactWettingOfStacks {
  protected:
   double takenFrom(int above, int below, Effect effect, double shift = 0, int n = 4) {
     Stack stack(GetParam());
@@ -94,7 +94,7 @@ class ContactWettingOfStacks : public InEveryWorld {
   }
 };
 
-TEST_P(ContactWettingOfStacks, ManyGiveWhatOneDoes) {
+TEST_F_IN_EVERY_WORLD(ContactWettingOfStacks, ManyGiveWhatOneDoes) {
   for (const Effect effect : {Effect::onTheOne, Effect::onTheOthers, Effect::onAll}) {
     SCOPED_TRACE(static_cast<int>(effect));
     const double one = takenFrom(1, 0, effect);
@@ -105,14 +105,14 @@ TEST_P(ContactWettingOfStacks, ManyGiveWhatOneDoes) {
   }
 }
 
-TEST_P(ContactWettingOfStacks, EachSideHasAnAreaOfItsOwn) {
+TEST_F_IN_EVERY_WORLD(ContactWettingOfStacks, EachSideHasAnAreaOfItsOwn) {
   const double one = takenFrom(1, 0, Effect::onTheOne);
   EXPECT_NEAR(takenFrom(1, 1, Effect::onTheOne), one + takenFrom(0, 1, Effect::onTheOne), 0.03 * one);
   EXPECT_NEAR(takenFrom(2, 3, Effect::onTheOne), takenFrom(1, 1, Effect::onTheOne), 0.06 * one);
 }
 
 // Meshes that do not lie node on node.
-TEST_P(ContactWettingOfStacks, ShiftedOnesGiveHardlyMoreThanOne) {
+TEST_F_IN_EVERY_WORLD(ContactWettingOfStacks, ShiftedOnesGiveHardlyMoreThanOne) {
   for (const int n : {4, 7}) {
     const double one = takenFrom(1, 0, Effect::onTheOne, 0, n);
     const double three = takenFrom(3, 0, Effect::onTheOne, 0.03, n);
@@ -120,8 +120,6 @@ TEST_P(ContactWettingOfStacks, ShiftedOnesGiveHardlyMoreThanOne) {
     EXPECT_LT(three, 1.5 * one) << n;
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(ContactWettingOfStacks);
 
 }  // namespace
 }  // namespace wetcloth_test::contact_wetting_of_stacks_test

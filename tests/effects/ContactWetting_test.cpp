@@ -78,9 +78,7 @@ class OnFloor {
   RigidBody floor;
 };
 
-using ContactWettingInWorld = InEveryWorld;
-
-TEST_P(ContactWettingInWorld, ANodeFillsWhileItTouches) {
+TEST_IN_EVERY_WORLD(ContactWettingInWorld, ANodeFillsWhileItTouches) {
   OnFloor cloth(GetParam());
   cloth.wet(kInfinite);
   std::array<int, 16> touched = {};  // steps in which Bullet had listed the node; it rests on the margin, in or out
@@ -100,7 +98,7 @@ TEST_P(ContactWettingInWorld, ANodeFillsWhileItTouches) {
   }
 }
 
-TEST_P(ContactWettingInWorld, WhatTheFilmLosesIsInTheCloth) {
+TEST_IN_EVERY_WORLD(ContactWettingInWorld, WhatTheFilmLosesIsInTheCloth) {
   for (const double share : {0.3, 3.0}) {
     OnFloor cloth(GetParam());
     const double film = share * cloth.capacity();
@@ -116,7 +114,7 @@ TEST_P(ContactWettingInWorld, WhatTheFilmLosesIsInTheCloth) {
   }
 }
 
-TEST_P(ContactWettingInWorld, IdlesWhenFull) {
+TEST_IN_EVERY_WORLD(ContactWettingInWorld, IdlesWhenFull) {
   OnFloor cloth(GetParam());
   ContactWetting& wetting = cloth.wet(kInfinite, 10);
   cloth.scene.step(240);
@@ -127,7 +125,7 @@ TEST_P(ContactWettingInWorld, IdlesWhenFull) {
   EXPECT_EQ(wetting.nodesVisited(), visited);
 }
 
-TEST_P(ContactWettingInWorld, OnlyWhatTouchesGetsWet) {
+TEST_IN_EVERY_WORLD(ContactWettingInWorld, OnlyWhatTouchesGetsWet) {
   OnFloor cloth(GetParam(), 0);
   // It would slide off the edge.
   for (int i = 0; i < 16; ++i) cloth.scene.node(i).m_im = 0;
@@ -147,7 +145,7 @@ TEST_P(ContactWettingInWorld, OnlyWhatTouchesGetsWet) {
   }
 }
 
-TEST_P(ContactWettingInWorld, ADryFloorChangesNothing) {
+TEST_IN_EVERY_WORLD(ContactWettingInWorld, ADryFloorChangesNothing) {
   OnFloor with(GetParam());
   OnFloor without(GetParam());
   ContactWetting& wetting = with.wet(0);
@@ -157,7 +155,7 @@ TEST_P(ContactWettingInWorld, ADryFloorChangesNothing) {
   EXPECT_TRUE(sameBits(stateOf(with.scene.body()), stateOf(without.scene.body())));
 }
 
-TEST_P(ContactWettingInWorld, WaterBringsTheVelocityOfItsBody) {
+TEST_IN_EVERY_WORLD(ContactWettingInWorld, WaterBringsTheVelocityOfItsBody) {
   OnFloor cloth(GetParam());
   cloth.scene.step(60);
   ContactWetting& wetting = cloth.wet(kInfinite, 1);
@@ -173,7 +171,7 @@ TEST_P(ContactWettingInWorld, WaterBringsTheVelocityOfItsBody) {
   EXPECT_NEAR(after[1] - before[1], 0, (kIsDouble ? 1e-12 : 1e-5) * taken);
 }
 
-TEST_P(ContactWettingInWorld, NoStepIsTooLong) {
+TEST_IN_EVERY_WORLD(ContactWettingInWorld, NoStepIsTooLong) {
   OnFloor cloth(GetParam());
   cloth.scene.step(60);
   ContactWetting& wetting = cloth.wet(0.5 * cloth.capacity());
@@ -187,7 +185,7 @@ TEST_P(ContactWettingInWorld, NoStepIsTooLong) {
   }
 }
 
-TEST_P(ContactWettingInWorld, ABodyThatLeftTheWorldGivesNothing) {
+TEST_IN_EVERY_WORLD(ContactWettingInWorld, ABodyThatLeftTheWorldGivesNothing) {
   ClothScene scene(GetParam(), kEarthGravity, Lying().builder(GetParam()));
   auto floor = std::make_unique<RigidBody>(scene.bullet(), box(5, 0.5, 5), 0, btVector3(0, -0.5, 0));
   ContactWetting::Parameters parameters;
@@ -200,8 +198,6 @@ TEST_P(ContactWettingInWorld, ABodyThatLeftTheWorldGivesNothing) {
   scene.step(1);  // the sanitizers see to it that nobody looks at the floor
   EXPECT_EQ(scene.cloth().ledger().held, held);
 }
-
-WETCLOTH_IN_EVERY_WORLD(ContactWettingInWorld);
 
 // A body that sleeps keeps its old list of contacts: it soaks on, until what it lies on has been taken away.
 TEST(ContactWettingAsleep, GoesOnWhileTheFloorIsThere) {

@@ -113,9 +113,7 @@ TEST(DiffusionBounds, EndsEven) {
   }
 }
 
-using DiffusionMomentum = InEveryWorld;
-
-TEST_P(DiffusionMomentum, IsKept) {
+TEST_IN_EVERY_WORLD(DiffusionMomentum, IsKept) {
   for (const double dt : {1e-3, 1.0, 1e4}) {
     ClothScene scene(GetParam(), btVector3(0, 0, 0), levelPatch(6, 0.1), wetcloth::Fabric::highAbsorption(),
                      wetcloth::Hook::manual);
@@ -141,7 +139,7 @@ TEST_P(DiffusionMomentum, IsKept) {
 }
 
 // Wet nodes fly, dry ones rest: what spreads drags them along.
-TEST_P(DiffusionMomentum, WaterDragsAlongTheNodesItComesTo) {
+TEST_IN_EVERY_WORLD(DiffusionMomentum, WaterDragsAlongTheNodesItComesTo) {
   ClothScene scene(GetParam(), btVector3(0, 0, 0), levelPatch(3, 0.1), wetcloth::Fabric::cotton(),
                    wetcloth::Hook::manual);
   std::vector<double> held(9, 0.0);
@@ -157,8 +155,6 @@ TEST_P(DiffusionMomentum, WaterDragsAlongTheNodesItComesTo) {
   // And D dt / h^2 = 4e-5 of it came and went on to the corners; the velocity is rounded.
   EXPECT_NEAR(scene.node(3).m_v.x(), expected, 1e-3 * expected);
 }
-
-WETCLOTH_IN_EVERY_WORLD(DiffusionMomentum);
 
 // Water that lands and spreads in one step brings its momentum in that step.
 TEST(DiffusionBounds, MomentumOfWhatArrivesInTheSameStepIsKept) {

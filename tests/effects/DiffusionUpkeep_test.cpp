@@ -142,9 +142,7 @@ class Plane : public btSoftBody::ImplicitFn {
   btScalar Eval(const btVector3& x) override { return x.x() - btScalar(0.07); }
 };
 
-using DiffusionInWorld = InEveryWorld;
-
-TEST_P(DiffusionInWorld, GoesOnAfterACut) {
+TEST_IN_EVERY_WORLD(DiffusionInWorld, GoesOnAfterACut) {
   wetcloth::ClothPatch patch = levelPatch(6, 1);
   ClothScene scene(GetParam(), btVector3(0, 0, 0), patch);
   scene.wet().setLog([](const std::string&) {});
@@ -193,8 +191,6 @@ TEST(DiffusionWarp, IsOfAnyLength) {
     EXPECT_GT(scene.s(1), 100 * scene.s(6)) << length;
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(DiffusionInWorld);
 
 }  // namespace
 }  // namespace wetcloth_test::diffusion_upkeep_test

@@ -230,9 +230,7 @@ TEST(DrippingIdles, UntilItsHoldingCapacityChanges) {
 
 // --- in Bullet's worlds -----------------------------------------------------------------------------------------
 
-using DrippingDropsInWorld = InEveryWorld;
-
-TEST_P(DrippingDropsInWorld, MayBecomeRigidBodies) {
+TEST_IN_EVERY_WORLD(DrippingDropsInWorld, MayBecomeRigidBodies) {
   ClothScene scene(GetParam(), kEarthGravity, hangingPatch(3));
   scene.addBulletSpringsForStep();
   std::vector<std::unique_ptr<RigidBody>> drops;
@@ -251,7 +249,7 @@ TEST_P(DrippingDropsInWorld, MayBecomeRigidBodies) {
   EXPECT_TRUE(isFinite(scene.body()));
 }
 
-TEST_P(DrippingDropsInWorld, AreNotLostWhenTheClothIsCut) {
+TEST_IN_EVERY_WORLD(DrippingDropsInWorld, AreNotLostWhenTheClothIsCut) {
   ClothScene scene(GetParam(), kEarthGravity, hangingPatch(5));
   scene.addBulletSpringsForStep();
   scene.wet().setLog({});
@@ -270,8 +268,6 @@ TEST_P(DrippingDropsInWorld, AreNotLostWhenTheClothIsCut) {
   EXPECT_NEAR(reported + effect.pendingMass(), ledger.dripped, 1e-14);
   EXPECT_LE(std::fabs(ledger.imbalance()), 1e-12 * ledger.initial);
 }
-
-WETCLOTH_IN_EVERY_WORLD(DrippingDropsInWorld);
 
 // --- bad input --------------------------------------------------------------------------------------------------
 

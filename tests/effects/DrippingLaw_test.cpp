@@ -239,9 +239,7 @@ TEST(DrippingLowPoint, WithoutGravityNothingDrips) {
 
 // --- in Bullet's worlds -----------------------------------------------------------------------------------------
 
-using DrippingInWorld = InEveryWorld;
-
-TEST_P(DrippingInWorld, TheHemOfAHungClothFollowsTheClosedForm) {
+TEST_IN_EVERY_WORLD(DrippingInWorld, TheHemOfAHungClothFollowsTheClosedForm) {
   // The hem on a rail: where springs let it swing for a while after the start it is no low point all the time.
   wetcloth::ClothPatch patch = hangingPatch(5);
   patch.pinnedEdges.push_back(wetcloth::ClothPatch::Edge::bottom);
@@ -254,8 +252,6 @@ TEST_P(DrippingInWorld, TheHemOfAHungClothFollowsTheClosedForm) {
     EXPECT_NEAR(scene.cloth().saturation(i), i < 5 ? closedForm(2) : 1, 1e-12) << i;
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(DrippingInWorld);
 
 }  // namespace
 }  // namespace wetcloth_test::dripping_law_test

@@ -201,9 +201,7 @@ TEST(DrippingSqueeze, ANodeThatIsNotFiniteIsNotPressed) {
 
 // --- in Bullet's worlds ------------------------------------------------------------------------------------------
 
-using DrippingSqueezeInWorld = InEveryWorld;
-
-TEST_P(DrippingSqueezeInWorld, ClothThatPinsPressTogetherLosesWaterByTheClosedForm) {
+TEST_IN_EVERY_WORLD(DrippingSqueezeInWorld, ClothThatPinsPressTogetherLosesWaterByTheClosedForm) {
   wetcloth::ClothPatch patch = hangingPatch(2);
   patch.pinnedEdges = {wetcloth::ClothPatch::Edge::top, wetcloth::ClothPatch::Edge::bottom};
   ClothScene scene(GetParam(), kEarthGravity, patch);
@@ -217,7 +215,7 @@ TEST_P(DrippingSqueezeInWorld, ClothThatPinsPressTogetherLosesWaterByTheClosedFo
   }
 }
 
-TEST_P(DrippingSqueezeInWorld, ClothThatIsCutIsPressedOn) {
+TEST_IN_EVERY_WORLD(DrippingSqueezeInWorld, ClothThatIsCutIsPressedOn) {
   ClothScene scene(GetParam(), kEarthGravity, hangingPatch(5));
   scene.addBulletSpringsForStep();
   scene.wet().setLog({});
@@ -234,8 +232,6 @@ TEST_P(DrippingSqueezeInWorld, ClothThatIsCutIsPressedOn) {
   const wetcloth::Ledger ledger = scene.cloth().ledger();
   EXPECT_LE(std::fabs(ledger.imbalance()), 1e-12 * ledger.initial);
 }
-
-WETCLOTH_IN_EVERY_WORLD(DrippingSqueezeInWorld);
 
 }  // namespace
 }  // namespace wetcloth_test::dripping_squeeze_test

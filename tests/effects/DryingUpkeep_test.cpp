@@ -93,9 +93,7 @@ TEST(DryingUpkeep, ANodeWithAVelocityThatIsNotFiniteKeepsItsWater) {
   }
 }
 
-using DryingUpkeepInWorld = InEveryWorld;
-
-TEST_P(DryingUpkeepInWorld, GoesOnWhenTheClothIsCut) {
+TEST_IN_EVERY_WORLD(DryingUpkeepInWorld, GoesOnWhenTheClothIsCut) {
   ClothScene scene(GetParam(), kEarthGravity, hangingPatch(5));
   scene.addBulletSpringsForStep();
   scene.wet().setLog({});
@@ -112,8 +110,6 @@ TEST_P(DryingUpkeepInWorld, GoesOnWhenTheClothIsCut) {
   EXPECT_LE(std::fabs(ledger.imbalance()), 1e-12 * ledger.initial);
   EXPECT_TRUE(isFinite(body));
 }
-
-WETCLOTH_IN_EVERY_WORLD(DryingUpkeepInWorld);
 
 // --- bad input --------------------------------------------------------------------------------------------------
 

@@ -212,9 +212,7 @@ TEST(Drying, LeavesTheVelocities) {
 
 // --- in Bullet's worlds -----------------------------------------------------------------------------------------
 
-using DryingInWorld = InEveryWorld;
-
-TEST_P(DryingInWorld, OfAPinnedClothFollowsTheClosedForm) {
+TEST_IN_EVERY_WORLD(DryingInWorld, OfAPinnedClothFollowsTheClosedForm) {
   wetcloth::ClothPatch patch = levelPatch(3, 1);
   patch.pinnedNodes = {0, 1, 2, 3, 4, 5, 6, 7, 8};
   Drying::Parameters parameters;
@@ -227,8 +225,6 @@ TEST_P(DryingInWorld, OfAPinnedClothFollowsTheClosedForm) {
   const double dried = dryingStep(capacity, 0.3 * capacity, rate(5), 2);
   EXPECT_NEAR((capacity - scene.cloth().held(4)) / dried, 1, kGeometry);
 }
-
-WETCLOTH_IN_EVERY_WORLD(DryingInWorld);
 
 }  // namespace
 }  // namespace wetcloth_test::drying_test

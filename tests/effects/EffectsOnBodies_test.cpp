@@ -33,9 +33,7 @@ wetcloth::ContactWetting::Parameters wetBody(const btCollisionObject& body) {
 /// What no kind of body may change: 1 - s falls no faster than by rate / capacity.
 double most(double before, double seconds) { return 1 - (1 - before) * std::exp(-kRate * seconds / kArealCapacity); }
 
-using EffectsOnBodies = InEveryWorld;
-
-TEST_P(EffectsOnBodies, AllOfThemThroughAllThatMayHappen) {
+TEST_IN_EVERY_WORLD(EffectsOnBodies, AllOfThemThroughAllThatMayHappen) {
   for (const BodyShape shape : kBodyShapes) {
     for (const BodyMotion motion : kBodyMotions) {
       for (const BodyEvent event : kBodyEvents) {
@@ -62,7 +60,7 @@ TEST_P(EffectsOnBodies, AllOfThemThroughAllThatMayHappen) {
 }
 
 // On a body of many parts Bullet applies friction part by part. WetFriction changes the coefficient and nothing else.
-TEST_P(EffectsOnBodies, WetFrictionIsThatOfABodyWithTheProduct) {
+TEST_IN_EVERY_WORLD(EffectsOnBodies, WetFrictionIsThatOfABodyWithTheProduct) {
   const auto slidden = [](double coefficient, double wetFactor) {
     OnBody cloth(GetParam(), overlappingBoxes(4));
     cloth.body.body().setFriction(1);
@@ -77,8 +75,6 @@ TEST_P(EffectsOnBodies, WetFrictionIsThatOfABodyWithTheProduct) {
   EXPECT_NEAR(slidden(0.1, 2), slidden(0.2, 1), 1e-4);
   EXPECT_LT(slidden(0.2, 1), slidden(0.1, 1));
 }
-
-WETCLOTH_IN_EVERY_WORLD(EffectsOnBodies);
 
 // --- docs/bodies.md -------------------------------------------------------------------------------------------------
 

@@ -87,9 +87,7 @@ double energy(const btSoftBody& body, double stiffness) {
   return sum;
 }
 
-using HookeSpringsDynamics = InEveryWorld;
-
-TEST_P(HookeSpringsDynamics, FreeChainKeepsItsMomentum) {
+TEST_IN_EVERY_WORLD(HookeSpringsDynamics, FreeChainKeepsItsMomentum) {
   for (double stiffness : {10.0, 1e4}) {
     ClothScene scene(GetParam(), kNoGravity, hangingRope(10, 0.1, 0.01, false));
     scene.cloth().add<HookeSprings>(springs(stiffness));
@@ -109,7 +107,7 @@ TEST_P(HookeSpringsDynamics, FreeChainKeepsItsMomentum) {
   }
 }
 
-TEST_P(HookeSpringsDynamics, FreeFallIsAsWithoutSprings) {
+TEST_IN_EVERY_WORLD(HookeSpringsDynamics, FreeFallIsAsWithoutSprings) {
   const auto fallen = [](bool withSprings) {
     ClothScene scene(GetParam(), kEarthGravity, hangingRope(10, 0.1, 0.01, false));
     if (withSprings) scene.cloth().add<HookeSprings>(springs(1000));
@@ -128,7 +126,7 @@ TEST_P(HookeSpringsDynamics, FreeFallIsAsWithoutSprings) {
 }
 
 // Along its own line a chain is linear, and backward Euler only takes energy away.
-TEST_P(HookeSpringsDynamics, EnergyOfAStretchedChainNeverRises) {
+TEST_IN_EVERY_WORLD(HookeSpringsDynamics, EnergyOfAStretchedChainNeverRises) {
   for (double stiffness : {1.0, 100.0, 1e4, 1e6}) {
     for (double dt : {1.0 / 240, 1.0 / 60, 1.0 / 10}) {
       ClothScene scene(GetParam(), kNoGravity, hangingRope(10, 0.1, 0.01, false));
@@ -153,7 +151,7 @@ TEST_P(HookeSpringsDynamics, EnergyOfAStretchedChainNeverRises) {
 }
 
 // Crumpled, compressed springs give way sideways and the energy of a step may rise a little; it must not run away.
-TEST_P(HookeSpringsDynamics, EnergyOfAShakenChainStaysBounded) {
+TEST_IN_EVERY_WORLD(HookeSpringsDynamics, EnergyOfAShakenChainStaysBounded) {
   for (double stiffness : {1.0, 100.0, 1e4, 1e6}) {
     for (double dt : {1.0 / 240, 1.0 / 60, 1.0 / 10}) {
       ClothScene scene(GetParam(), kNoGravity, hangingRope(10, 0.1, 0.01, false));
@@ -171,7 +169,7 @@ TEST_P(HookeSpringsDynamics, EnergyOfAShakenChainStaysBounded) {
   }
 }
 
-TEST_P(HookeSpringsDynamics, StiffSpringsAndLongStepsStayFinite) {
+TEST_IN_EVERY_WORLD(HookeSpringsDynamics, StiffSpringsAndLongStepsStayFinite) {
   for (double stiffness : {1.0, 1e6, 1e9}) {
     for (double dt : {1e-4, 1.0 / 240, 1.0 / 10, 1.0}) {
       ClothScene scene(GetParam(), kEarthGravity, hangingRope(10, 0.1, 1e-5));
@@ -214,7 +212,7 @@ double period(WorldKind world, double stiffness, double mass, double dt, int per
   return -1;
 }
 
-TEST_P(HookeSpringsDynamics, PeriodOfAMassOnASpringApproachesTheClosedForm) {
+TEST_IN_EVERY_WORLD(HookeSpringsDynamics, PeriodOfAMassOnASpringApproachesTheClosedForm) {
   const double exact = 2 * kPi * std::sqrt(0.1 / 40);  // 0.314 s
   for (double dt : {1.0 / 256, 1.0 / 1024}) {
     // Backward Euler turns by atan(w dt) in a step, whose error is (w dt)^2 / 3.
@@ -251,7 +249,7 @@ double firstRootOfLaguerre(int n) {
 
 // A chain of n light, stiff links of length a in its slowest mode: node i from below is displaced by L_i(r), r the
 // first root of L_n, and omega^2 = r g / a. So it follows from T_i = (i + 1) m g and L's own recurrence.
-TEST_P(HookeSpringsDynamics, PeriodOfAHangingChainIsThatOfItsSlowestMode) {
+TEST_IN_EVERY_WORLD(HookeSpringsDynamics, PeriodOfAHangingChainIsThatOfItsSlowestMode) {
   const int links = 20;
   const double length = 0.05;
   const double root = firstRootOfLaguerre(links);
@@ -276,8 +274,6 @@ TEST_P(HookeSpringsDynamics, PeriodOfAHangingChainIsThatOfItsSlowestMode) {
     EXPECT_NEAR(measured / exact, 1, 0.03) << dt;
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(HookeSpringsDynamics);
 
 }  // namespace
 }  // namespace wetcloth_test::hooke_springs_dynamics_test

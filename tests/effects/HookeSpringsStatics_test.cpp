@@ -51,13 +51,11 @@ void expectHangingChain(ClothScene& scene, double stiffness, double share, doubl
   }
 }
 
-using HookeSpringsStatics = InEveryWorld;
-
 // The issue allows 5 %. At rest the answer does not depend on iterations or the step; what is left of the fall is
 // exp(-0.03 x 240) = 1e-3 of it, and float32 knows a length of 0.8 m to 6e-8 m, 3e-5 of the smallest extension.
 constexpr double kShare = 0.01;
 
-TEST_P(HookeSpringsStatics, HangingChainStretchesByTheWeightBelowEachLink) {
+TEST_IN_EVERY_WORLD(HookeSpringsStatics, HangingChainStretchesByTheWeightBelowEachLink) {
   for (int iterations : {10, 100}) {
     for (int substeps : {1, 4}) {
       for (double saturation : {0.0, 1.0}) {
@@ -75,7 +73,7 @@ TEST_P(HookeSpringsStatics, HangingChainStretchesByTheWeightBelowEachLink) {
   }
 }
 
-TEST_P(HookeSpringsStatics, ChainThatSoaksWhileItHangsEndsWhereAWetOneDoes) {
+TEST_IN_EVERY_WORLD(HookeSpringsStatics, ChainThatSoaksWhileItHangsEndsWhereAWetOneDoes) {
   ClothScene scene(GetParam(), kEarthGravity, hangingRope(kLinks, kLength, kNodeMass));
   scene.cloth().add<HookeSprings>(springs(kStiffness));
   settle(scene, kSubstep, 2);
@@ -90,7 +88,7 @@ TEST_P(HookeSpringsStatics, ChainThatSoaksWhileItHangsEndsWhereAWetOneDoes) {
   expectHangingChain(scene, kStiffness, kShare);
 }
 
-TEST_P(HookeSpringsStatics, StretchGrowsWithTheWeightAndFallsWithTheStiffness) {
+TEST_IN_EVERY_WORLD(HookeSpringsStatics, StretchGrowsWithTheWeightAndFallsWithTheStiffness) {
   const auto total = [](double stiffness, double mass) {
     ClothScene scene(GetParam(), kEarthGravity, hangingRope(kLinks, kLength, mass));
     scene.cloth().add<HookeSprings>(springs(stiffness));
@@ -104,7 +102,7 @@ TEST_P(HookeSpringsStatics, StretchGrowsWithTheWeightAndFallsWithTheStiffness) {
 
 // A strip of two columns, held together by its rungs; the diagonals and the flexion springs are given no stiffness,
 // so that each column is a chain.
-TEST_P(HookeSpringsStatics, HangingStripStretchesLikeTwoChains) {
+TEST_IN_EVERY_WORLD(HookeSpringsStatics, HangingStripStretchesLikeTwoChains) {
   wetcloth::ClothPatch patch;
   patch.columns = 2;
   patch.rows = 9;
@@ -137,7 +135,7 @@ TEST_P(HookeSpringsStatics, HangingStripStretchesLikeTwoChains) {
 
 // A whole patch has no such closed form, but it is linear while it stretches little: 1.84 times the weight, 1.84 times
 // the stretch.
-TEST_P(HookeSpringsStatics, WetPatchStretchesInProportionToItsWeight) {
+TEST_IN_EVERY_WORLD(HookeSpringsStatics, WetPatchStretchesInProportionToItsWeight) {
   wetcloth::ClothPatch patch;
   patch.columns = 9;
   patch.rows = 9;
@@ -158,7 +156,7 @@ TEST_P(HookeSpringsStatics, WetPatchStretchesInProportionToItsWeight) {
   EXPECT_NEAR(sag(1) / dry, 1.84, 0.04);
 }
 
-TEST_P(HookeSpringsStatics, FlexionSpringsTakeTheBendingStiffness) {
+TEST_IN_EVERY_WORLD(HookeSpringsStatics, FlexionSpringsTakeTheBendingStiffness) {
   // Rope of 4 links, and two more from node to next but one, marked as bending.
   const auto sag = [](double bendingStiffness) {
     const auto rope = hangingRope(4, kLength, kNodeMass);
@@ -184,13 +182,9 @@ TEST_P(HookeSpringsStatics, FlexionSpringsTakeTheBendingStiffness) {
   EXPECT_NEAR(sag(50) / (10 * unit / 3), 1, 0.01);
 }
 
-WETCLOTH_IN_EVERY_WORLD(HookeSpringsStatics);
-
 // --- a load on an anchor --------------------------------------------------------------------------------------------
 
-using HookeSpringsLoad = InEveryWorld;
-
-TEST_P(HookeSpringsLoad, RopeWithABoxStretchesByBoth) {
+TEST_IN_EVERY_WORLD(HookeSpringsLoad, RopeWithABoxStretchesByBoth) {
   for (double load : {0.02, 0.2}) {
     SCOPED_TRACE(load);
     btBoxShape shape(btVector3(btScalar(0.05), btScalar(0.05), btScalar(0.05)));
@@ -221,14 +215,10 @@ TEST_P(HookeSpringsLoad, RopeWithABoxStretchesByBoth) {
   }
 }
 
-WETCLOTH_IN_EVERY_WORLD(HookeSpringsLoad);
-
 // --- Bullet without it
 // ------------------------------------------------------------------------------------------------
 
-using BulletsOwnLinks = testing::TestWithParam<WorldKind>;
-
-TEST_P(BulletsOwnLinks, DoNotStretchMoreWhenTheClothIsWet) {
+TEST_IN_POSITION_BASED_WORLDS(BulletsOwnLinks, DoNotStretchMoreWhenTheClothIsWet) {
   const auto sag = [](double saturation) {
     ClothScene scene(GetParam(), kEarthGravity, hangingRope(kLinks, kLength, kNodeMass));
     scene.cloth().setSaturation(saturation);
@@ -239,12 +229,7 @@ TEST_P(BulletsOwnLinks, DoNotStretchMoreWhenTheClothIsWet) {
   EXPECT_NEAR(sag(1), sag(0), 0.01 * std::fabs(sag(0)) + 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(, BulletsOwnLinks, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
-                         [](const auto& world) { return std::string(nameOf(world.param)); });
-
-using BulletsOwnSprings = testing::TestWithParam<WorldKind>;
-
-TEST_P(BulletsOwnSprings, InTheDeformableWorldFollowTheSameClosedForm) {
+TEST_IN_DEFORMABLE_WORLDS(BulletsOwnSprings, InTheDeformableWorldFollowTheSameClosedForm) {
   for (double saturation : {0.0, 1.0}) {
     ClothScene scene(GetParam(), kEarthGravity, hangingRope(kLinks, kLength, kNodeMass));
     scene.addBulletSprings(kStiffness, 0.01);
@@ -253,9 +238,6 @@ TEST_P(BulletsOwnSprings, InTheDeformableWorldFollowTheSameClosedForm) {
     expectHangingChain(scene, kStiffness, 0.05);
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(, BulletsOwnSprings, testing::Values(WorldKind::deformable, WorldKind::deformableImplicit),
-                         [](const auto& world) { return std::string(nameOf(world.param)); });
 
 }  // namespace
 }  // namespace wetcloth_test::hooke_springs_statics_test

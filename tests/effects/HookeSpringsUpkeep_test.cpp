@@ -35,9 +35,7 @@ std::vector<LinkState> linksOf(const btSoftBody& body) {
   return links;
 }
 
-using HookeSpringsUpkeep = InEveryWorld;
-
-TEST_P(HookeSpringsUpkeep, RemovingThemGivesTheLinksBackAsTheyWere) {
+TEST_IN_EVERY_WORLD(HookeSpringsUpkeep, RemovingThemGivesTheLinksBackAsTheyWere) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));
   scene.step(1);
   const std::vector<LinkState> before = linksOf(scene.body());
@@ -55,7 +53,7 @@ TEST_P(HookeSpringsUpkeep, RemovingThemGivesTheLinksBackAsTheyWere) {
   }
 }
 
-TEST_P(HookeSpringsUpkeep, LinksComeBackWithTheMassesOfTheWetCloth) {
+TEST_IN_EVERY_WORLD(HookeSpringsUpkeep, LinksComeBackWithTheMassesOfTheWetCloth) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));
   scene.step(1);
   const std::vector<LinkState> dry = linksOf(scene.body());
@@ -68,7 +66,7 @@ TEST_P(HookeSpringsUpkeep, LinksComeBackWithTheMassesOfTheWetCloth) {
   for (std::size_t i = 0; i < dry.size(); ++i) EXPECT_NEAR(wet[i].c0 / dry[i].c0, 1 / 1.84, 1e-5) << i;
 }
 
-TEST_P(HookeSpringsUpkeep, RemovedBeforeTheFirstStepTheyLeaveNoTrace) {
+TEST_IN_EVERY_WORLD(HookeSpringsUpkeep, RemovedBeforeTheFirstStepTheyLeaveNoTrace) {
   const auto positions = [](bool addAndRemove) {
     ClothScene scene(GetParam(), kEarthGravity, hangingRope(8, 0.1, 0.01));
     if (addAndRemove) scene.cloth().remove(scene.cloth().add<HookeSprings>());
@@ -80,7 +78,7 @@ TEST_P(HookeSpringsUpkeep, RemovedBeforeTheFirstStepTheyLeaveNoTrace) {
   EXPECT_EQ(positions(true), positions(false));
 }
 
-TEST_P(HookeSpringsUpkeep, FactorsNothingWhileNothingChanges) {
+TEST_IN_EVERY_WORLD(HookeSpringsUpkeep, FactorsNothingWhileNothingChanges) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));
   HookeSprings& effect = scene.cloth().add<HookeSprings>();
   scene.step(2);
@@ -92,7 +90,7 @@ TEST_P(HookeSpringsUpkeep, FactorsNothingWhileNothingChanges) {
 }
 
 // 1.84 times the mass, and 1.84 times less.
-TEST_P(HookeSpringsUpkeep, FactorsOnceWhileTheClothSoaksAndDries) {
+TEST_IN_EVERY_WORLD(HookeSpringsUpkeep, FactorsOnceWhileTheClothSoaksAndDries) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));
   HookeSprings& effect = scene.cloth().add<HookeSprings>();
   for (int step = 0; step <= 480; ++step) {
@@ -102,7 +100,7 @@ TEST_P(HookeSpringsUpkeep, FactorsOnceWhileTheClothSoaksAndDries) {
   EXPECT_EQ(effect.factorizations(), 1);
 }
 
-TEST_P(HookeSpringsUpkeep, FactorsOnceWhileStiffnessesStayWithinHalfAndTwice) {
+TEST_IN_EVERY_WORLD(HookeSpringsUpkeep, FactorsOnceWhileStiffnessesStayWithinHalfAndTwice) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));
   HookeSprings& effect = scene.cloth().add<HookeSprings>();
   scene.step(1);
@@ -119,7 +117,7 @@ TEST_P(HookeSpringsUpkeep, FactorsOnceWhileStiffnessesStayWithinHalfAndTwice) {
   EXPECT_EQ(effect.factorizations(), 2);
 }
 
-TEST_P(HookeSpringsUpkeep, FactorsAnewWhenTheStepChanges) {
+TEST_IN_EVERY_WORLD(HookeSpringsUpkeep, FactorsAnewWhenTheStepChanges) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));
   HookeSprings& effect = scene.cloth().add<HookeSprings>();
   scene.step(5, 1.0 / 240);
@@ -127,8 +125,6 @@ TEST_P(HookeSpringsUpkeep, FactorsAnewWhenTheStepChanges) {
   scene.step(5, 1.0 / 60);
   EXPECT_EQ(effect.factorizations(), before + 1);
 }
-
-WETCLOTH_IN_EVERY_WORLD(HookeSpringsUpkeep);
 
 TEST(HookeSpringsInPositionBasedWorlds, BulletsLinksPullAgainAfterRemoval) {
   ClothScene scene(WorldKind::softRigid, kEarthGravity, hangingRope(8, 0.1, 0.01));

@@ -30,8 +30,6 @@ bool isAnyBelow(const btSoftBody& body, double level) {
   return false;
 }
 
-using ImmersionInWorld = InEveryWorld;
-
 struct Pool {
   Pool(WorldKind kind, const wetcloth::ClothPatch& patch, double level, const btVector3& gravity = kEarthGravity)
       : scene(kind, patch, gravity), wet(scene.world()), cloth(exactly(wet.add(scene.body(), fabricOf(1, 0.01)))) {
@@ -47,7 +45,7 @@ struct Pool {
 
 // From rest right above, where the step's own motion is larger than the way; from above, after it has settled; and
 // from high up, where a step is a large part of the way.
-TEST_P(ImmersionInWorld, AFallingClothSoaksInTheVeryStepThatItsFirstNodeIsBelow) {
+TEST_IN_EVERY_WORLD(ImmersionInWorld, AFallingClothSoaksInTheVeryStepThatItsFirstNodeIsBelow) {
   for (const double height : {0.002, 0.1, 5.0}) {
     Pool pool(GetParam(), hangingPatch(4), -height, btVector3(0, 0, 0));
     pool.scene.bullet().step(100);
@@ -70,7 +68,7 @@ TEST_P(ImmersionInWorld, AFallingClothSoaksInTheVeryStepThatItsFirstNodeIsBelow)
 
 // One corner alone is drawn down within five steps, as if by hand, while all else rests: SteadyState, which looks at a
 // 32nd of the nodes in a step, would see most of these too late.
-TEST_P(ImmersionInWorld, OneNodeThatIsDrawnUnderIsNoticed) {
+TEST_IN_EVERY_WORLD(ImmersionInWorld, OneNodeThatIsDrawnUnderIsNoticed) {
   for (const int phase : {0, 7, 14, 21, 28}) {
     Pool pool(GetParam(), hangingPatch(8), -0.05, btVector3(0, 0, 0));
     pool.scene.bullet().step(100 + phase);
@@ -88,7 +86,7 @@ TEST_P(ImmersionInWorld, OneNodeThatIsDrawnUnderIsNoticed) {
   }
 }
 
-TEST_P(ImmersionInWorld, SoaksWhatHangsInTheWaterAndThenIdles) {
+TEST_IN_EVERY_WORLD(ImmersionInWorld, SoaksWhatHangsInTheWaterAndThenIdles) {
   Pool pool(GetParam(), hangingPatch(5), 0.4, btVector3(0, 0, 0));
   pool.scene.bullet().step(240);                                                          // 100 time constants
   for (int i = 0; i < 25; ++i) EXPECT_EQ(pool.cloth.saturation(i), i < 10 ? 1 : 0) << i;  // rows at 0 and 0.25
@@ -104,7 +102,7 @@ TEST_P(ImmersionInWorld, SoaksWhatHangsInTheWaterAndThenIdles) {
   EXPECT_EQ(pool.cloth.saturation(20), 0.5);
 }
 
-TEST_P(ImmersionInWorld, AClothThatIsFullCostsNothingThoughItMoves) {
+TEST_IN_EVERY_WORLD(ImmersionInWorld, AClothThatIsFullCostsNothingThoughItMoves) {
   Pool pool(GetParam(), squarePatch(4), 10);
   pool.cloth.setSaturation(1);
   pool.scene.bullet().step(1);
@@ -113,7 +111,7 @@ TEST_P(ImmersionInWorld, AClothThatIsFullCostsNothingThoughItMoves) {
   EXPECT_EQ(pool.effect->nodesVisited(), visited);
 }
 
-TEST_P(ImmersionInWorld, AClothThatIsLiftedOutTakesNoMore) {
+TEST_IN_EVERY_WORLD(ImmersionInWorld, AClothThatIsLiftedOutTakesNoMore) {
   Pool pool(GetParam(), hangingPatch(4), 2, btVector3(0, 0, 0));
   pool.scene.bullet().step(1);
   const double held = pool.cloth.ledger().held;
@@ -123,7 +121,7 @@ TEST_P(ImmersionInWorld, AClothThatIsLiftedOutTakesNoMore) {
   EXPECT_EQ(pool.cloth.ledger().held, held);
 }
 
-TEST_P(ImmersionInWorld, APinnedNodeSoaksAndStaysPinned) {
+TEST_IN_EVERY_WORLD(ImmersionInWorld, APinnedNodeSoaksAndStaysPinned) {
   Pool pool(GetParam(), hangingPatch(4), 2);
   pool.scene.bullet().step(240);
   EXPECT_EQ(pool.cloth.saturation(15), 1);
@@ -131,7 +129,7 @@ TEST_P(ImmersionInWorld, APinnedNodeSoaksAndStaysPinned) {
   EXPECT_EQ(pool.scene.body().m_nodes[15].m_x.y(), 1);
 }
 
-TEST_P(ImmersionInWorld, GoesOnWhenTheBodyIsCutEvenIfThereIsNoWaterAtThatMoment) {
+TEST_IN_EVERY_WORLD(ImmersionInWorld, GoesOnWhenTheBodyIsCutEvenIfThereIsNoWaterAtThatMoment) {
   BodyScene scene(GetParam(), hangingPatch(5));
   scene.bullet().info().water_normal = btVector3(0, 1, 0);
   scene.bullet().info().water_offset = -2;
@@ -151,8 +149,6 @@ TEST_P(ImmersionInWorld, GoesOnWhenTheBodyIsCutEvenIfThereIsNoWaterAtThatMoment)
   for (int i = 0; i < 27; ++i) EXPECT_GT(cloth.saturation(i), 0.01) << i;
   EXPECT_LE(std::fabs(cloth.ledger().imbalance()), 1e-12 * held);
 }
-
-WETCLOTH_IN_EVERY_WORLD(ImmersionInWorld);
 
 }  // namespace
 }  // namespace wetcloth_test::immersion_idles_test

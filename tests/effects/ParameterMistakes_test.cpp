@@ -191,12 +191,7 @@ Mistakes<CollisionAudit> mistakesIn<CollisionAudit>() {
   return {{[](P& p) { p.mostPairsPerFace = 0; }, "CollisionAudit.mostPairsPerFace", "0"}};
 }
 
-template <class E>
-class MistakesIn : public testing::Test {};
-
-TYPED_TEST_SUITE(MistakesIn, AllEffects, EffectName);
-
-TYPED_TEST(MistakesIn, ParametersOfARunningEffectAreRefusedAsAWhole) {
+TEST_OF_EVERY_EFFECT(MistakesIn, ParametersOfARunningEffectAreRefusedAsAWhole) {
   Sample tried;
   Sample left;
   auto& effect = tried.cloth().template add<TypeParam>(before<TypeParam>(tried));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/effects/ParameterSample.h"
+#include "tests/support/Test.h"
 
 #include <gtest/gtest.h>
 
@@ -275,22 +276,38 @@ struct Trial<CollisionAudit> : TrialOf<CollisionAudit> {
   }
 };
 
-using AllEffects =
-    testing::Types<Absorption, Immersion, Rain, Splash, ContactWetting, Diffusion, Seepage, Dripping, Drying,
-                   WetStiffness, Swelling, Wind, WaterDrag, Cling, WetFriction, HookeSprings, CollisionAudit>;
-
 /// Asked for at each start of the program, whichever tests it runs: one sample does for all.
-struct EffectName {
-  template <class E>
-  static std::string GetName(int) {
-    return std::string(E(before<E>(sample())).name());
-  }
+inline const Sample& sampleForNames() {
+  static const Sample sample;
+  return sample;
+}
 
- private:
-  static const Sample& sample() {
-    static const Sample kept;
-    return kept;
+template <class E>
+std::string nameOfEffect() {
+  return std::string(E(before<E>(sampleForNames())).name());
+}
+
+template <class... E>
+struct Effects {
+  /// Adds the test `Of<E>::test()` for each effect: suite/effect.name
+  template <template <class> class Of>
+  static bool add(const std::string& suite, const char* name, const char* file, int line) {
+    return (addTest((suite + "/" + nameOfEffect<E>()).c_str(), name, file, line, Of<E>::test) && ...);
   }
 };
 
+using AllEffects = Effects<Absorption, Immersion, Rain, Splash, ContactWetting, Diffusion, Seepage, Dripping, Drying,
+                           WetStiffness, Swelling, Wind, WaterDrag, Cling, WetFriction, HookeSprings, CollisionAudit>;
+
 }  // namespace wetcloth_test::parameters
+
+// As GoogleTest's TYPED_TEST, which makes 25 functions of a test and a type: its body knows the effect as TypeParam.
+#define TEST_OF_EVERY_EFFECT(suite, name)                                                              \
+  template <class TypeParam>                                                                           \
+  struct suite##_##name {                                                                              \
+    static void test();                                                                                \
+  };                                                                                                   \
+  [[maybe_unused]] static const bool suite##_##name##_added =                                          \
+      ::wetcloth_test::parameters::AllEffects::add<suite##_##name>(#suite, #name, __FILE__, __LINE__); \
+  template <class TypeParam>                                                                           \
+  void suite##_##name<TypeParam>::test()

@@ -11,12 +11,7 @@ namespace {
 
 using namespace parameters;
 
-template <class E>
-class ParametersOf : public testing::Test {};
-
-TYPED_TEST_SUITE(ParametersOf, AllEffects, EffectName);
-
-TYPED_TEST(ParametersOf, TheEffectAreThoseThatItWasGiven) {
+TEST_OF_EVERY_EFFECT(ParametersOf, TheEffectAreThoseThatItWasGiven) {
   Sample sample;
   auto& effect = sample.cloth().template add<TypeParam>(before<TypeParam>(sample));
   EXPECT_EQ(values<TypeParam>(effect.parameters()), values<TypeParam>(before<TypeParam>(sample)));
@@ -24,7 +19,7 @@ TYPED_TEST(ParametersOf, TheEffectAreThoseThatItWasGiven) {
   EXPECT_EQ(values<TypeParam>(effect.parameters()), values<TypeParam>(after<TypeParam>(sample)));
 }
 
-TYPED_TEST(ParametersOf, ARunningEffectMakeItOneThatWasMadeWithThem) {
+TEST_OF_EVERY_EFFECT(ParametersOf, ARunningEffectMakeItOneThatWasMadeWithThem) {
   Sample changed;
   Sample replaced;
   auto& effect = changed.cloth().template add<TypeParam>(before<TypeParam>(changed));
@@ -39,7 +34,7 @@ TYPED_TEST(ParametersOf, ARunningEffectMakeItOneThatWasMadeWithThem) {
   EXPECT_EQ(changed.state(), replaced.state());
 }
 
-TYPED_TEST(ParametersOf, ARunningEffectShowInTheNextStep) {
+TEST_OF_EVERY_EFFECT(ParametersOf, ARunningEffectShowInTheNextStep) {
   Sample changed;
   Sample left;
   auto& effect = changed.cloth().template add<TypeParam>(before<TypeParam>(changed));
@@ -50,7 +45,7 @@ TYPED_TEST(ParametersOf, ARunningEffectShowInTheNextStep) {
   EXPECT_EQ(changed.state() == left.state(), onlyLooks);
 }
 
-TYPED_TEST(ParametersOf, ARunningEffectMayBeSetToWhatTheyAre) {
+TEST_OF_EVERY_EFFECT(ParametersOf, ARunningEffectMayBeSetToWhatTheyAre) {
   Sample set;
   Sample left;
   auto& effect = set.cloth().template add<TypeParam>(after<TypeParam>(set));

@@ -18,10 +18,8 @@ namespace {
 
 using wetcloth::Rain;
 
-using RainInWorld = InEveryWorld;
-
 // Free fall beside the rain: g t and the drops' momentum, m v' = m v + dm u, all in one direction.
-TEST_P(RainInWorld, PushesAFreeClothByItsMomentum) {
+TEST_IN_EVERY_WORLD(RainInWorld, PushesAFreeClothByItsMomentum) {
   BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   scene.body().setActivationState(DISABLE_DEACTIVATION);
   wetcloth::WetClothWorld wet(scene.world());
@@ -38,7 +36,7 @@ TEST_P(RainInWorld, PushesAFreeClothByItsMomentum) {
   EXPECT_NEAR(double(meanVelocity(scene.body()).y()), -6.5 * absorbed / (dry + absorbed), kIsDouble ? 1e-7 : 1e-3);
 }
 
-TEST_P(RainInWorld, WetsPinnedNodesAndLeavesThemPinned) {
+TEST_IN_EVERY_WORLD(RainInWorld, WetsPinnedNodesAndLeavesThemPinned) {
   BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
@@ -56,7 +54,7 @@ TEST_P(RainInWorld, WetsPinnedNodesAndLeavesThemPinned) {
   EXPECT_LE(std::fabs(cloth.ledger().imbalance()), 1e-12 * cloth.ledger().held);
 }
 
-TEST_P(RainInWorld, KeepsABodyAwakeThatItsDropsWouldCarryOff) {
+TEST_IN_EVERY_WORLD(RainInWorld, KeepsABodyAwakeThatItsDropsWouldCarryOff) {
   BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
@@ -71,7 +69,7 @@ TEST_P(RainInWorld, KeepsABodyAwakeThatItsDropsWouldCarryOff) {
   EXPECT_FALSE(scene.body().isActive());
 }
 
-TEST_P(RainInWorld, GoesOnWhenTheBodyIsCut) {
+TEST_IN_EVERY_WORLD(RainInWorld, GoesOnWhenTheBodyIsCut) {
   for (const bool selfShelter : {false, true}) {
     BodyScene scene(GetParam(), hangingPatch(5));
     wetcloth::WetClothWorld wet(scene.world());
@@ -93,7 +91,7 @@ TEST_P(RainInWorld, GoesOnWhenTheBodyIsCut) {
   }
 }
 
-TEST_P(RainInWorld, WritesNoNumberThatIsNone) {
+TEST_IN_EVERY_WORLD(RainInWorld, WritesNoNumberThatIsNone) {
   for (const bool selfShelter : {false, true}) {
     BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
     wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
@@ -111,8 +109,6 @@ TEST_P(RainInWorld, WritesNoNumberThatIsNone) {
     EXPECT_GT(cloth.held(15), 0) << "the others go on";
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(RainInWorld);
 
 }  // namespace
 }  // namespace wetcloth_test::rain_in_world_test

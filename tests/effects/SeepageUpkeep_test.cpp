@@ -22,9 +22,7 @@ using wetcloth::Seepage;
 
 const btVector3 kDown(0, btScalar(-9.81), 0);
 
-using SeepageMomentum = InEveryWorld;
-
-TEST_P(SeepageMomentum, IsKept) {
+TEST_IN_EVERY_WORLD(SeepageMomentum, IsKept) {
   wetcloth::ClothPatch patch = levelPatch(6, 0.1);
   patch.edgeV = btVector3(0, btScalar(0.1), 0);
   ClothScene scene(GetParam(), kDown, patch, wetcloth::Fabric::highAbsorption(), wetcloth::Hook::manual);
@@ -43,7 +41,7 @@ TEST_P(SeepageMomentum, IsKept) {
 }
 
 // The whole step, Bullet's part included, on a cloth that hangs from its upper edge.
-TEST_P(SeepageMomentum, AHangingClothDrainsDownwards) {
+TEST_IN_EVERY_WORLD(SeepageMomentum, AHangingClothDrainsDownwards) {
   wetcloth::ClothPatch patch = levelPatch(8, 0.2);
   patch.edgeV = btVector3(0, btScalar(0.2), 0);
   patch.pinnedEdges = {wetcloth::ClothPatch::Edge::top};
@@ -57,8 +55,6 @@ TEST_P(SeepageMomentum, AHangingClothDrainsDownwards) {
   EXPECT_GT(scene.cloth().saturation(4), 0.9);
   EXPECT_NEAR(scene.cloth().ledger().held, before, 1e-13 * before);
 }
-
-WETCLOTH_IN_EVERY_WORLD(SeepageMomentum);
 
 TEST(SeepageUpkeep, RefusesBadParametersByName) {
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -71,11 +71,9 @@ Links linksOf(const btSoftBody& body) {
   return links;
 }
 
-using SoakSoftenShrink = InEveryWorld;
-
 // A rope of 6 links of 0.1 m and nodes of 0.01 kg: each link's length against l0 (1 - shrinkage s) + (weight below) /
 // (K f(s)), dry, wet, and dry again.
-TEST_P(SoakSoftenShrink, HangingRopeThereAndBack) {
+TEST_IN_EVERY_WORLD(SoakSoftenShrink, HangingRopeThereAndBack) {
   constexpr int kLinks = 6;
   BodyScene scene(GetParam(), [](btSoftBodyWorldInfo& info) {
     std::unique_ptr<btSoftBody> rope(btSoftBodyHelpers::CreateRope(
@@ -128,7 +126,7 @@ TEST_P(SoakSoftenShrink, HangingRopeThereAndBack) {
 }
 
 // A patch by its corners, which soaks from one side.
-TEST_P(SoakSoftenShrink, PatchThereAndBack) {
+TEST_IN_EVERY_WORLD(SoakSoftenShrink, PatchThereAndBack) {
   wetcloth::ClothPatch patch = hangingPatch(6);
   patch.pinnedEdges.clear();
   patch.pinnedCorners = {wetcloth::ClothPatch::Corner::topLeft, wetcloth::ClothPatch::Corner::topRight};
@@ -168,8 +166,6 @@ TEST_P(SoakSoftenShrink, PatchThereAndBack) {
   EXPECT_EQ(cloth.linkConstants().refreshes(), refreshes);
   EXPECT_EQ(stiffness.linksVisited(), damped + 10 * scene.body().m_links.size()) << "damping alone";
 }
-
-WETCLOTH_IN_EVERY_WORLD(SoakSoftenShrink);
 
 }  // namespace
 }  // namespace wetcloth_test::soak_soften_shrink_test

@@ -89,7 +89,7 @@ TEST(SplashBadInput, ASetterThatThrowsChangesNothing) {
   EXPECT_EQ(effect.parameters().flux, 1);
 }
 
-class SplashInWorld : public InEveryWorld {
+class SplashInWorld {
  protected:
   static Splash::Parameters onEverything(double flux) {
     Splash::Parameters parameters;
@@ -99,7 +99,7 @@ class SplashInWorld : public InEveryWorld {
   }
 };
 
-TEST_P(SplashInWorld, ARopeCatchesNone) {
+TEST_F_IN_EVERY_WORLD(SplashInWorld, ARopeCatchesNone) {
   BodyScene scene(GetParam(), [](btSoftBodyWorldInfo& info) {
     return std::unique_ptr<btSoftBody>(
         btSoftBodyHelpers::CreateRope(info, btVector3(0, 0, 0), btVector3(1, 0, 0), 3, 0));
@@ -115,7 +115,7 @@ TEST_P(SplashInWorld, ARopeCatchesNone) {
   EXPECT_TRUE(cloth.effects().empty());
 }
 
-TEST_P(SplashInWorld, PushesAFreeClothByItsMomentum) {
+TEST_F_IN_EVERY_WORLD(SplashInWorld, PushesAFreeClothByItsMomentum) {
   BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   scene.body().setActivationState(DISABLE_DEACTIVATION);
   wetcloth::WetClothWorld wet(scene.world());
@@ -129,7 +129,7 @@ TEST_P(SplashInWorld, PushesAFreeClothByItsMomentum) {
   EXPECT_NEAR(double(meanVelocity(scene.body()).y()), -5 * absorbed / (dry + absorbed), kIsDouble ? 1e-7 : 1e-3);
 }
 
-TEST_P(SplashInWorld, WetsPinnedNodesGoesOnWhenTheBodyIsCutAndClosesTheLedger) {
+TEST_F_IN_EVERY_WORLD(SplashInWorld, WetsPinnedNodesGoesOnWhenTheBodyIsCutAndClosesTheLedger) {
   BodyScene scene(GetParam(), hangingPatch(5));
   scene.addBulletSprings(20, 0.1, SpringDamping::everyDirection);
   wetcloth::WetClothWorld wet(scene.world());
@@ -154,7 +154,7 @@ TEST_P(SplashInWorld, WetsPinnedNodesGoesOnWhenTheBodyIsCutAndClosesTheLedger) {
   EXPECT_LE(std::fabs(cloth.ledger().imbalance()), 1e-12 * cloth.ledger().held);
 }
 
-TEST_P(SplashInWorld, KeepsABodyAwakeThatItsDropsWouldCarryOff) {
+TEST_F_IN_EVERY_WORLD(SplashInWorld, KeepsABodyAwakeThatItsDropsWouldCarryOff) {
   BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
@@ -169,7 +169,7 @@ TEST_P(SplashInWorld, KeepsABodyAwakeThatItsDropsWouldCarryOff) {
   EXPECT_FALSE(scene.body().isActive());
 }
 
-TEST_P(SplashInWorld, WritesNoNumberThatIsNone) {
+TEST_F_IN_EVERY_WORLD(SplashInWorld, WritesNoNumberThatIsNone) {
   for (const bool isCone : {false, true}) {
     for (const double dt : {1e-6, 1e3}) {
       BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
@@ -190,8 +190,6 @@ TEST_P(SplashInWorld, WritesNoNumberThatIsNone) {
     }
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(SplashInWorld);
 
 }  // namespace
 }  // namespace wetcloth_test::splash_in_world_test

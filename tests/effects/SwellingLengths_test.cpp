@@ -64,9 +64,7 @@ TEST(SwellingInput, ABodyWithoutLinksAndASecondOneAreRefused) {
   EXPECT_EQ(scene.cloth().effects().size(), 1u);
 }
 
-using SwellingLengths = InEveryWorld;
-
-TEST_P(SwellingLengths, FollowEachLinksOwnSaturation) {
+TEST_IN_EVERY_WORLD(SwellingLengths, FollowEachLinksOwnSaturation) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   scene.step(1);
   const Lengths dry = lengthsOf(scene.body());
@@ -105,7 +103,7 @@ TEST(SwellingReverses, TenThousandTimesBitForBit) {
   }
 }
 
-TEST_P(SwellingLengths, AreGivenBackExactlyOnRemoval) {
+TEST_IN_EVERY_WORLD(SwellingLengths, AreGivenBackExactlyOnRemoval) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   scene.step(1);
   const Lengths dry = lengthsOf(scene.body());
@@ -117,7 +115,7 @@ TEST_P(SwellingLengths, AreGivenBackExactlyOnRemoval) {
   EXPECT_TRUE(lengthsOf(scene.body()) == dry);
 }
 
-TEST_P(SwellingLengths, FollowAStrainThatIsSetMidRun) {
+TEST_IN_EVERY_WORLD(SwellingLengths, FollowAStrainThatIsSetMidRun) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   scene.step(1);
   const Lengths dry = lengthsOf(scene.body());
@@ -132,7 +130,7 @@ TEST_P(SwellingLengths, FollowAStrainThatIsSetMidRun) {
   EXPECT_TRUE(lengthsOf(scene.body()) == dry);
 }
 
-TEST_P(SwellingLengths, LeaveADryClothUntouched) {
+TEST_IN_EVERY_WORLD(SwellingLengths, LeaveADryClothUntouched) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   scene.step(1);
   const Lengths dry = lengthsOf(scene.body());
@@ -141,7 +139,7 @@ TEST_P(SwellingLengths, LeaveADryClothUntouched) {
   EXPECT_TRUE(lengthsOf(scene.body()) == dry);
 }
 
-TEST_P(SwellingLengths, OfABodyThatWasWetBeforeItsFirstStep) {
+TEST_IN_EVERY_WORLD(SwellingLengths, OfABodyThatWasWetBeforeItsFirstStep) {
   ClothScene scene(GetParam(), btVector3(0, 0, 0), levelPatch(5, 1));
   scene.cloth().add<Swelling>({-0.1});
   scene.cloth().setSaturation(1);
@@ -151,7 +149,7 @@ TEST_P(SwellingLengths, OfABodyThatWasWetBeforeItsFirstStep) {
   EXPECT_NEAR(double(scene.body().m_links[0].m_rl), 0.9 * natural, 2 * kRounding);
 }
 
-TEST_P(SwellingLengths, TakeALengthOfTheApplicationAsTheNaturalOne) {
+TEST_IN_EVERY_WORLD(SwellingLengths, TakeALengthOfTheApplicationAsTheNaturalOne) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   scene.step(1);
   Swelling& effect = scene.cloth().add<Swelling>({-0.1});
@@ -172,7 +170,7 @@ TEST_P(SwellingLengths, TakeALengthOfTheApplicationAsTheNaturalOne) {
   EXPECT_EQ(link.m_rl, btScalar(0.5)) << "set just before the effect is removed";
 }
 
-TEST_P(SwellingLengths, ScaleWithBulletsRestLengthScale) {
+TEST_IN_EVERY_WORLD(SwellingLengths, ScaleWithBulletsRestLengthScale) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   scene.step(1);
   const double natural = double(scene.body().m_links[3].m_rl);
@@ -189,7 +187,7 @@ TEST_P(SwellingLengths, ScaleWithBulletsRestLengthScale) {
 }
 
 // Bullet takes the shape of the wet, shrunken cloth for the one at rest: dry it is longer.
-TEST_P(SwellingLengths, OfACutClothAreThoseOfItsWetShape) {
+TEST_IN_EVERY_WORLD(SwellingLengths, OfACutClothAreThoseOfItsWetShape) {
   ClothScene scene(GetParam(), btVector3(0, 0, 0), levelPatch(5, 1));
   scene.wet().setLog({});
   scene.step(1);
@@ -216,7 +214,7 @@ TEST_P(SwellingLengths, OfACutClothAreThoseOfItsWetShape) {
   }
 }
 
-TEST_P(SwellingLengths, CostNothingOnceTheWaterRests) {
+TEST_IN_EVERY_WORLD(SwellingLengths, CostNothingOnceTheWaterRests) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   Swelling& effect = scene.cloth().add<Swelling>({-0.01});
   wetcloth::Absorption::Parameters ramp;
@@ -233,8 +231,6 @@ TEST_P(SwellingLengths, CostNothingOnceTheWaterRests) {
   scene.step(100);
   EXPECT_EQ(effect.linksVisited(), visited);
 }
-
-WETCLOTH_IN_EVERY_WORLD(SwellingLengths);
 
 }  // namespace
 }  // namespace wetcloth_test::swelling_lengths_test

@@ -105,11 +105,9 @@ INSTANTIATE_TEST_SUITE_P(, SwellingMotion,
                                   (std::get<1>(test.param) == HeldBy::bullet ? "_bullet" : "_hookeSprings");
                          });
 
-using SwellingTension = InEveryWorld;
-
 // A chain of equal springs between two pins that shrinks by e pulls with K l0 e. The end node is made heavy and let go:
 // in its first steps it gathers speed as that force says.
-TEST_P(SwellingTension, OfAChainBetweenPinsIsItsStiffnessTimesTheShrinkage) {
+TEST_IN_EVERY_WORLD(SwellingTension, OfAChainBetweenPinsIsItsStiffnessTimesTheShrinkage) {
   constexpr int kLinks = 5;
   constexpr double kStiffness = 50;
   constexpr double kMass = 1;
@@ -132,8 +130,6 @@ TEST_P(SwellingTension, OfAChainBetweenPinsIsItsStiffnessTimesTheShrinkage) {
   const double force = double(scene.node(kLinks).m_v.y()) * kMass / (12 * dt);
   EXPECT_NEAR(force / (kStiffness * 0.1 * 0.04), 1, 0.025);
 }
-
-WETCLOTH_IN_EVERY_WORLD(SwellingTension);
 
 }  // namespace
 }  // namespace wetcloth_test::swelling_motion_test

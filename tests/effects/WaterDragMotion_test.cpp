@@ -41,11 +41,9 @@ double meanSpeed(ClothScene& scene, std::size_t axis = 1) {
   return momentum(scene.body())[axis] / freeMass(scene.body());
 }
 
-using WaterDragMotionInWorld = InEveryWorld;
-
 // --- sinking and rising -----------------------------------------------------------------------------------------
 
-TEST_P(WaterDragMotionInWorld, WetAndDrySinkAtTheSameTerminalSpeed) {
+TEST_IN_EVERY_WORLD(WaterDragMotionInWorld, WetAndDrySinkAtTheSameTerminalSpeed) {
   const double expected = sinkingSpeed(0.150, 1540, 1000, 1.2, kGravity);
   for (const double saturation : {0.0, 0.5, 1.0}) {
     ClothScene scene(GetParam(), kEarthGravity, levelPatch(9, 1));
@@ -59,7 +57,7 @@ TEST_P(WaterDragMotionInWorld, WetAndDrySinkAtTheSameTerminalSpeed) {
   }
 }
 
-TEST_P(WaterDragMotionInWorld, FibreLighterThanWaterRises) {
+TEST_IN_EVERY_WORLD(WaterDragMotionInWorld, FibreLighterThanWaterRises) {
   WaterDrag::Parameters parameters = deepWater();
   parameters.fibreDensity = 910;  // polypropylene
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(9, 1));
@@ -71,7 +69,7 @@ TEST_P(WaterDragMotionInWorld, FibreLighterThanWaterRises) {
 }
 
 // v = v_T tanh(t / tau), tau = v_T m / (weight in water): held water weighs nothing but has to be moved along.
-TEST_P(WaterDragMotionInWorld, AWetClothTakesLongerToGetToSpeed) {
+TEST_IN_EVERY_WORLD(WaterDragMotionInWorld, AWetClothTakesLongerToGetToSpeed) {
   const double terminal = sinkingSpeed(0.150, 1540, 1000, 1.2, kGravity);
   for (const double saturation : {0.0, 1.0}) {
     ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
@@ -86,7 +84,7 @@ TEST_P(WaterDragMotionInWorld, AWetClothTakesLongerToGetToSpeed) {
   }
 }
 
-TEST_P(WaterDragMotionInWorld, ACurrentCarriesTheClothAlongInTheEnd) {
+TEST_IN_EVERY_WORLD(WaterDragMotionInWorld, ACurrentCarriesTheClothAlongInTheEnd) {
   ClothScene scene(GetParam(), kNoGravity, levelPatch(5, 1));
   scene.addBulletSpringsForStep();
   scene.cloth().add<WaterDrag>(deepWater(btVector3(0, btScalar(0.5), 0)));
@@ -98,7 +96,7 @@ TEST_P(WaterDragMotionInWorld, ACurrentCarriesTheClothAlongInTheEnd) {
 }
 
 // It falls from 0.2 m at 2 m/s into water that stops it within centimetres.
-TEST_P(WaterDragMotionInWorld, AFallingClothIsCaughtByTheWater) {
+TEST_IN_EVERY_WORLD(WaterDragMotionInWorld, AFallingClothIsCaughtByTheWater) {
   WaterDrag::Parameters parameters = deepWater();
   parameters.surface->offset = 0.2;
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(9, 1));
@@ -113,7 +111,7 @@ TEST_P(WaterDragMotionInWorld, AFallingClothIsCaughtByTheWater) {
 
 // --- stability --------------------------------------------------------------------------------------------------
 
-TEST_P(WaterDragMotionInWorld, ATorrentOfTwoHundredMetresPerSecondIsStable) {
+TEST_IN_EVERY_WORLD(WaterDragMotionInWorld, ATorrentOfTwoHundredMetresPerSecondIsStable) {
   for (const double dt : {1.0 / 240, 1.0 / 30}) {
     ClothScene scene(GetParam(), kEarthGravity, levelPatch(10, 1, 81 * 1e-5));
     scene.addBulletSpringsForStep(dt);
@@ -126,7 +124,7 @@ TEST_P(WaterDragMotionInWorld, ATorrentOfTwoHundredMetresPerSecondIsStable) {
   }
 }
 
-TEST_P(WaterDragMotionInWorld, AClothCutHalfInTheWaterGoesOn) {
+TEST_IN_EVERY_WORLD(WaterDragMotionInWorld, AClothCutHalfInTheWaterGoesOn) {
   WaterDrag::Parameters parameters = deepWater(btVector3(0, 0, 1));
   parameters.surface->offset = -0.4;
   ClothScene scene(GetParam(), kEarthGravity, hangingPatch(6));
@@ -141,8 +139,6 @@ TEST_P(WaterDragMotionInWorld, AClothCutHalfInTheWaterGoesOn) {
   EXPECT_EQ(scene.cloth().effects().size(), 1u);
   EXPECT_TRUE(isFinite(body));
 }
-
-WETCLOTH_IN_EVERY_WORLD(WaterDragMotionInWorld);
 
 /// A crumpled sheet: every triangle looks another way.
 void crumple(btSoftBody& body, std::mt19937& random) {
@@ -207,9 +203,7 @@ TEST(WaterDragStability, StepsConvergeToTheClosedForm) {
 
 // --- sleep, which only the deformable world knows ---------------------------------------------------------------
 
-using WaterDragSleep = testing::TestWithParam<WorldKind>;
-
-TEST_P(WaterDragSleep, IsEndedByACurrentALevelThatChangesOrDrainedWater) {
+TEST_IN_DEFORMABLE_WORLDS(WaterDragSleep, IsEndedByACurrentALevelThatChangesOrDrainedWater) {
   for (const char* change : {"current", "level", "drained"}) {
     BodyScene scene(GetParam(), sailPatch(4), kNoGravity);
     wetcloth::WetClothWorld wet(scene.world());
@@ -231,7 +225,7 @@ TEST_P(WaterDragSleep, IsEndedByACurrentALevelThatChangesOrDrainedWater) {
   }
 }
 
-TEST_P(WaterDragSleep, IsNotDisturbedByWaterFarBelow) {
+TEST_IN_DEFORMABLE_WORLDS(WaterDragSleep, IsNotDisturbedByWaterFarBelow) {
   BodyScene scene(GetParam(), sailPatch(4), kNoGravity);
   wetcloth::WetClothWorld wet(scene.world());
   WaterDrag::Parameters parameters = deepWater();
@@ -249,9 +243,6 @@ TEST_P(WaterDragSleep, IsNotDisturbedByWaterFarBelow) {
   scene.bullet().step(2);
   EXPECT_TRUE(scene.body().isActive()) << "the flood has reached it";
 }
-
-INSTANTIATE_TEST_SUITE_P(, WaterDragSleep, testing::Values(WorldKind::deformable, WorldKind::deformableImplicit),
-                         [](const auto& test) { return std::string(nameOf(test.param)); });
 
 }  // namespace
 }  // namespace wetcloth_test::water_drag_motion_test

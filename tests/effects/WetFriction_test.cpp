@@ -70,9 +70,7 @@ class Slope {
   RigidBody m_box;
 };
 
-using WetFrictionInWorld = InEveryWorld;
-
-TEST_P(WetFrictionInWorld, EvenlyWetIsABodyWithTheProductForItsFriction) {
+TEST_IN_EVERY_WORLD(WetFrictionInWorld, EvenlyWetIsABodyWithTheProductForItsFriction) {
   Slope with(GetParam(), 1.2);
   Slope reference(GetParam(), 1.2, double(btScalar(0.4)) * 2.5);
   Slope dry(GetParam(), 1.2);
@@ -86,7 +84,7 @@ TEST_P(WetFrictionInWorld, EvenlyWetIsABodyWithTheProductForItsFriction) {
   EXPECT_EQ(with.scene.body().m_cfg.kDF, btScalar(0.4));
 }
 
-TEST_P(WetFrictionInWorld, DryIsAsIfItWereNotThere) {
+TEST_IN_EVERY_WORLD(WetFrictionInWorld, DryIsAsIfItWereNotThere) {
   Slope with(GetParam(), 0.3);
   Slope without(GetParam(), 0.3);
   WetFriction& friction = with.scene.cloth().add<WetFriction>();
@@ -104,7 +102,7 @@ double slip(Slope& slope) {
   return centreOfMass(slope.scene.body())[0] - before;
 }
 
-TEST_P(WetFrictionInWorld, FromRestItStaysBelowTheTangentAndSlidesAboveIt) {
+TEST_IN_EVERY_WORLD(WetFrictionInWorld, FromRestItStaysBelowTheTangentAndSlidesAboveIt) {
   for (const double share : {0.9, 1.1}) {
     const bool isDeformable = Slope(GetParam(), 0).scene.bullet().isDeformable();
     Slope slope(GetParam(), share * 0.5);
@@ -148,7 +146,7 @@ TEST(WetFrictionOfASlidingCloth, StopsBelowTheSquareOfTheCoefficientInThePositio
 
 // Outside the cone the worlds part. The deformable one is Coulomb's: a = g (sin - mu cos). The position-based ones take
 // a share mu of the velocity in each step, so the cloth slides at v = g sin dt (1 - mu) / mu, whatever it weighs.
-TEST_P(WetFrictionInWorld, SlidesAsItsWorldLetsItSlide) {
+TEST_IN_EVERY_WORLD(WetFrictionInWorld, SlidesAsItsWorldLetsItSlide) {
   for (const double saturation : {0.0, 0.25, 0.5}) {
     Slope slope(GetParam(), 1.2);
     const WetFriction& friction = slope.scene.cloth().add<WetFriction>();
@@ -168,7 +166,7 @@ TEST_P(WetFrictionInWorld, SlidesAsItsWorldLetsItSlide) {
   }
 }
 
-TEST_P(WetFrictionInWorld, AHalfWetClothTurns) {
+TEST_IN_EVERY_WORLD(WetFrictionInWorld, AHalfWetClothTurns) {
   Slope slope(GetParam(), 1.2);
   slope.scene.cloth().add<WetFriction>();
   std::vector<double> held;
@@ -184,7 +182,7 @@ TEST_P(WetFrictionInWorld, AHalfWetClothTurns) {
   EXPECT_GT(dry - wet, 0.002) << "the dry half runs ahead";
 }
 
-TEST_P(WetFrictionInWorld, AFloodedClothMaySlideBetterThanADryOne) {
+TEST_IN_EVERY_WORLD(WetFrictionInWorld, AFloodedClothMaySlideBetterThanADryOne) {
   Slope dry(GetParam(), 1.2);
   Slope flooded(GetParam(), 1.2);
   flooded.scene.cloth().add<WetFriction>({2.5, 0.5, 0.2});
@@ -267,8 +265,6 @@ TEST(WetFrictionOnABody, SaysWhyItCannotWork) {
   EXPECT_NE(why(WorldKind::deformable, Flags::VF_DD).find("after its solve"), std::string::npos);
   EXPECT_EQ(why(WorldKind::deformable, Flags::SDF_RD | Flags::SDF_RDF), "");
 }
-
-WETCLOTH_IN_EVERY_WORLD(WetFrictionInWorld);
 
 }  // namespace
 }  // namespace wetcloth_test::wet_friction_test

@@ -3,6 +3,7 @@
 // follows the wetness, and they cling.
 #include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/solver/GuardScene.h"
+#include "tests/support/InEveryWorld.h"
 
 #include <gtest/gtest.h>
 
@@ -74,10 +75,6 @@ struct Layers {
   wetcloth::WetCloth& looseCloth;
 };
 
-class WetLayers : public testing::TestWithParam<WorldKind> {};
-INSTANTIATE_TEST_SUITE_P(, WetLayers, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
-                         [](const auto& test) { return std::string(nameOf(test.param)); });
-
 // --- water ----------------------------------------------------------------------------------------------------------
 
 wetcloth::ContactWetting::Parameters betweenCloths() {
@@ -86,7 +83,7 @@ wetcloth::ContactWetting::Parameters betweenCloths() {
   return parameters;
 }
 
-TEST_P(WetLayers, PassWaterWhereTheyTouch) {
+TEST_IN_POSITION_BASED_WORLDS(WetLayers, PassWaterWhereTheyTouch) {
   Layers layers(GetParam(), kThickness);
   layers.looseCloth.add<wetcloth::ContactWetting>(betweenCloths());
   layers.looseCloth.setSaturation(1);
@@ -109,7 +106,7 @@ TEST_P(WetLayers, PassWaterWhereTheyTouch) {
   EXPECT_LT(layers.looseCloth.meanSaturation(), 0.95);
 }
 
-TEST_P(WetLayers, PassNoWaterWhereTheyAreApart) {
+TEST_IN_POSITION_BASED_WORLDS(WetLayers, PassNoWaterWhereTheyAreApart) {
   Layers layers(GetParam(), 1.2 * kThickness, 0.3, kNoGravity);
   layers.looseCloth.add<wetcloth::ContactWetting>(betweenCloths());
   layers.looseCloth.setSaturation(1);
@@ -118,7 +115,7 @@ TEST_P(WetLayers, PassNoWaterWhereTheyAreApart) {
 }
 
 // Its right half is folded under its left half, and wet.
-TEST_P(WetLayers, OfOneClothPassWaterToo) {
+TEST_IN_POSITION_BASED_WORLDS(WetLayers, OfOneClothPassWaterToo) {
   constexpr int kNodes = 11;
   GuardScene scene(guardOf(0.3), GetParam());
   btSoftBody& body = scene.add([&](btSoftBodyWorldInfo& info) {
@@ -170,14 +167,14 @@ double slideExpected(double slope, double friction, double time) {
 }
 
 // Fast meshes are held by their edges, too, that slide over each other.
-TEST_P(WetLayers, StayOrSlideByTheTangentOfTheSlope) {
+TEST_IN_POSITION_BASED_WORLDS(WetLayers, StayOrSlideByTheTangentOfTheSlope) {
   const double mu = 0.3;
   EXPECT_LT(slideOn(GetParam(), 0.9 * mu, mu, 0, 0.4), 0.001);
   const double slides = slideExpected(0.5, mu, 0.1);
   EXPECT_NEAR(slideOn(GetParam(), 0.5, mu, 0, 0.1), slides, 0.1 * slides);
 }
 
-TEST_P(WetLayers, HaveTheFrictionOfTheirWetness) {
+TEST_IN_POSITION_BASED_WORLDS(WetLayers, HaveTheFrictionOfTheirWetness) {
   const double mu = 0.3;
   const double wet = mu * wetcloth::WetFriction::Parameters().wetFactor;
   EXPECT_LT(slideOn(GetParam(), 0.9 * wet, mu, kSaturation, 0.4), 0.001);
@@ -185,7 +182,7 @@ TEST_P(WetLayers, HaveTheFrictionOfTheirWetness) {
   EXPECT_NEAR(slideOn(GetParam(), 1.3 * wet, mu, kSaturation, 0.1), slides, 0.1 * slides);
 }
 
-TEST_P(WetLayers, AreAsDryAgainWithoutTheEffect) {
+TEST_IN_POSITION_BASED_WORLDS(WetLayers, AreAsDryAgainWithoutTheEffect) {
   const double mu = 0.3;
   Layers layers(GetParam(), kThickness, mu, btVector3(btScalar(0.5 * kGravity), btScalar(-kGravity), 0));
   wetcloth::WetFriction& effect = layers.looseCloth.add<wetcloth::WetFriction>();
@@ -230,27 +227,27 @@ struct Clinging {
   Layers layers;
 };
 
-TEST_P(WetLayers, HoldEachOtherUpToTheAdhesion) {
+TEST_IN_POSITION_BASED_WORLDS(WetLayers, HoldEachOtherUpToTheAdhesion) {
   const btVector3 down(0, btScalar(-Clinging::kAdhesion), 0);
   EXPECT_LT(double(Clinging(GetParam(), kSaturation).pull(down * btScalar(0.95)).length()), 1e-4);
   EXPECT_GT(double(Clinging(GetParam(), kSaturation).pull(down * btScalar(1.05)).length()), 0.1);
   EXPECT_GT(double(Clinging(GetParam(), 0.05).pull(down * btScalar(0.1)).length()), 0.1);  // too dry
 }
 
-TEST_P(WetLayers, HoldEachOtherAlongTheLayerUpToTheShearStrength) {
+TEST_IN_POSITION_BASED_WORLDS(WetLayers, HoldEachOtherAlongTheLayerUpToTheShearStrength) {
   const btVector3 aside(btScalar(Clinging::kShearStrength), 0, 0);
   EXPECT_LT(double(Clinging(GetParam(), kSaturation).pull(aside * btScalar(0.95)).length()), 1e-4);
   EXPECT_GT(double(Clinging(GetParam(), kSaturation).pull(aside * btScalar(1.4)).length()), 0.02);
 }
 
-TEST_P(WetLayers, HoldEachOtherWithTheMeanOfBoth) {
+TEST_IN_POSITION_BASED_WORLDS(WetLayers, HoldEachOtherWithTheMeanOfBoth) {
   const btVector3 down(0, btScalar(-Clinging::kAdhesion / 2), 0);
   EXPECT_LT(double(Clinging(GetParam(), kSaturation, false).pull(down * btScalar(0.95)).length()), 1e-4);
   EXPECT_GT(double(Clinging(GetParam(), kSaturation, false).pull(down * btScalar(1.05)).length()), 0.1);
 }
 
 // A stack that hangs: the upper side of a layer bears what hangs on its lower side, too.
-TEST_P(WetLayers, HangBelowEachOther) {
+TEST_IN_POSITION_BASED_WORLDS(WetLayers, HangBelowEachOther) {
   for (const double strength : {2.2, 1.8}) {
     Layers layers(GetParam(), -kThickness, 0.3, kEarthGravity, smallSheet());
     btSoftBody& third = layers.scene.add(smallSheet(-2 * kThickness, false));
@@ -293,7 +290,7 @@ struct Everything {
   Layers layers;
 };
 
-TEST_P(WetLayers, ARestoredRunGoesOnBitForBit) {
+TEST_IN_POSITION_BASED_WORLDS(WetLayers, ARestoredRunGoesOnBitForBit) {
   Everything first(GetParam());
   first.layers.scene.step(33);
   ASSERT_GT(first.layers.loose.m_scontacts.size(), 0);

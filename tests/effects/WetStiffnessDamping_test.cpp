@@ -68,9 +68,7 @@ double spin(const btSoftBody& body, int axis) {
   return sum;
 }
 
-using WetStiffnessDamping = InEveryWorld;
-
-TEST_P(WetStiffnessDamping, OneLinkLosesItsRelativeSpeedExponentiallyWhateverTheStep) {
+TEST_IN_EVERY_WORLD(WetStiffnessDamping, OneLinkLosesItsRelativeSpeedExponentiallyWhateverTheStep) {
   for (double saturation : {0.0, 0.25, 1.0}) {
     const double rate = 1 + 2 * saturation;
     for (double dt : {1e-6, 1e-3, 0.1, 1.0, 1e3}) {
@@ -94,7 +92,7 @@ TEST_P(WetStiffnessDamping, OneLinkLosesItsRelativeSpeedExponentiallyWhateverThe
 }
 
 // With springs too weak to be felt, so that nothing but the damping acts, the whole of Bullet's step included.
-TEST_P(WetStiffnessDamping, SlowsTwoNodesInARunningWorld) {
+TEST_IN_EVERY_WORLD(WetStiffnessDamping, SlowsTwoNodesInARunningWorld) {
   ClothScene scene(GetParam(), kNoGravity, pair());
   HookeSprings::Parameters weak;
   weak.stiffness = 1e-9;
@@ -112,7 +110,7 @@ TEST_P(WetStiffnessDamping, SlowsTwoNodesInARunningWorld) {
   EXPECT_NEAR(momentum(scene.body())[0], 0, 0.02 * (kIsDouble ? 1e-6 : 1e-3));
 }
 
-TEST_P(WetStiffnessDamping, NeverAddsEnergyAndKeepsMomentumAndSpin) {
+TEST_IN_EVERY_WORLD(WetStiffnessDamping, NeverAddsEnergyAndKeepsMomentumAndSpin) {
   for (double dt : {1e-3, 0.05, 1e3}) {
     ClothScene scene(GetParam(), kNoGravity, levelPatch(6, 1), Fabric::cotton(), Hook::manual);
     scene.cloth().add<WetStiffness>(damping(5, 20));
@@ -140,7 +138,7 @@ TEST_P(WetStiffnessDamping, NeverAddsEnergyAndKeepsMomentumAndSpin) {
   }
 }
 
-TEST_P(WetStiffnessDamping, LeavesAClothThatMovesAsOnePieceAlone) {
+TEST_IN_EVERY_WORLD(WetStiffnessDamping, LeavesAClothThatMovesAsOnePieceAlone) {
   ClothScene scene(GetParam(), kNoGravity, levelPatch(6, 1), Fabric::cotton(), Hook::manual);
   scene.cloth().add<WetStiffness>(damping(100, 100));
   const btVector3 turn(btScalar(0.3), -2, 1);
@@ -154,7 +152,7 @@ TEST_P(WetStiffnessDamping, LeavesAClothThatMovesAsOnePieceAlone) {
   }
 }
 
-TEST_P(WetStiffnessDamping, APinnedNodeIsAnInfiniteMass) {
+TEST_IN_EVERY_WORLD(WetStiffnessDamping, APinnedNodeIsAnInfiniteMass) {
   ClothScene scene(GetParam(), kNoGravity, hangingRope(1, 1, 0.01), Fabric::cotton(), Hook::manual);
   scene.cloth().add<WetStiffness>(damping(2, 2));
   setNodeVelocity(scene.node(1), btVector3(1, 4, 0));
@@ -164,7 +162,7 @@ TEST_P(WetStiffnessDamping, APinnedNodeIsAnInfiniteMass) {
   EXPECT_EQ(scene.node(1).m_v.x(), 1);
 }
 
-TEST_P(WetStiffnessDamping, DoesNoWorkWhenThereIsNone) {
+TEST_IN_EVERY_WORLD(WetStiffnessDamping, DoesNoWorkWhenThereIsNone) {
   ClothScene scene(GetParam(), kNoGravity, levelPatch(5, 1), Fabric::cotton(), Hook::manual);
   WetStiffness& effect = scene.cloth().add<WetStiffness>(damping(0, 0));
   setRandomVelocities(scene.body());
@@ -184,7 +182,7 @@ TEST_P(WetStiffnessDamping, DoesNoWorkWhenThereIsNone) {
   EXPECT_EQ(effect.linksVisited(), scene.body().m_links.size()) << "a sleeping cloth";
 }
 
-TEST_P(WetStiffnessDamping, WritesNothingThatIsNotFinite) {
+TEST_IN_EVERY_WORLD(WetStiffnessDamping, WritesNothingThatIsNotFinite) {
   ClothScene scene(GetParam(), kNoGravity, levelPatch(4, 1), Fabric::cotton(), Hook::manual);
   scene.cloth().add<WetStiffness>(damping(1, 1));
   setRandomVelocities(scene.body());
@@ -195,8 +193,6 @@ TEST_P(WetStiffnessDamping, WritesNothingThatIsNotFinite) {
     EXPECT_TRUE(i == 5 || std::isfinite(double(scene.node(i).m_v.length2()))) << i;
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(WetStiffnessDamping);
 
 }  // namespace
 }  // namespace wetcloth_test::wet_stiffness_damping_test

@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/effects/WetStiffness.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/InEveryWorld.h"
 #include "tests/support/Patches.h"
 #include "tests/support/Rejection.h"
 #include "tests/support/SoftBodies.h"
@@ -112,9 +113,7 @@ TEST(WetStiffnessInput, ASecondOneIsRefused) {
   EXPECT_EQ(scene.cloth().effects().size(), 1u);
 }
 
-using WetStiffnessInDeformable = testing::TestWithParam<WorldKind>;
-
-TEST_P(WetStiffnessInDeformable, NeedsHookeSpringsAndSaysSo) {
+TEST_IN_DEFORMABLE_WORLDS(WetStiffnessInDeformable, NeedsHookeSpringsAndSaysSo) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(4, 1));
   const std::string why = rejection([&] { scene.cloth().add<WetStiffness>(); });
   EXPECT_NE(why.find("HookeSprings"), std::string::npos) << why;
@@ -125,14 +124,10 @@ TEST_P(WetStiffnessInDeformable, NeedsHookeSpringsAndSaysSo) {
   EXPECT_EQ(scene.cloth().effects().size(), 2u);
 }
 
-TEST_P(WetStiffnessInDeformable, DampsWithoutThem) {
+TEST_IN_DEFORMABLE_WORLDS(WetStiffnessInDeformable, DampsWithoutThem) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(4, 1));
   EXPECT_EQ(rejection([&] { scene.cloth().add<WetStiffness>({1, 1, 0, 3}); }), "");
 }
-
-INSTANTIATE_TEST_SUITE_P(, WetStiffnessInDeformable,
-                         testing::Values(WorldKind::deformable, WorldKind::deformableImplicit),
-                         [](const auto& world) { return std::string(nameOf(world.param)); });
 
 }  // namespace
 }  // namespace wetcloth_test::wet_stiffness_law_test

@@ -5,6 +5,7 @@
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/InEveryWorld.h"
 #include "tests/support/Patches.h"
 #include "tests/support/SoftBodies.h"
 
@@ -53,9 +54,7 @@ void wetUnevenly(ClothScene& scene) {
   scene.cloth().setHeld(held);  // a few are over-full: they count as saturated
 }
 
-using WetStiffnessLinks = testing::TestWithParam<WorldKind>;
-
-TEST_P(WetStiffnessLinks, EachFollowsItsOwnNodes) {
+TEST_IN_POSITION_BASED_WORLDS(WetStiffnessLinks, EachFollowsItsOwnNodes) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));
   scene.step(1);
   scene.cloth().add<WetStiffness>({0.7, 0.3});
@@ -64,7 +63,7 @@ TEST_P(WetStiffnessLinks, EachFollowsItsOwnNodes) {
   expectConstants(scene, 0.7, 0.3);
 }
 
-TEST_P(WetStiffnessLinks, FollowWaterThatMovesWithinAThousandthAndExactlyOnceItRests) {
+TEST_IN_POSITION_BASED_WORLDS(WetStiffnessLinks, FollowWaterThatMovesWithinAThousandthAndExactlyOnceItRests) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   scene.step(1);
   scene.cloth().add<WetStiffness>({0.5, 0.5});
@@ -86,7 +85,7 @@ TEST_P(WetStiffnessLinks, FollowWaterThatMovesWithinAThousandthAndExactlyOnceItR
 }
 
 // A fabric that holds so little that no mass changes.
-TEST_P(WetStiffnessLinks, FollowWaterThatIsTooLightToBeFelt) {
+TEST_IN_POSITION_BASED_WORLDS(WetStiffnessLinks, FollowWaterThatIsTooLightToBeFelt) {
   wetcloth::Fabric fabric;
   fabric.capacity = 1e-18;
   fabric.timeConstant = 0.01;
@@ -99,7 +98,7 @@ TEST_P(WetStiffnessLinks, FollowWaterThatIsTooLightToBeFelt) {
   expectConstants(scene, 0.7, 0.3);
 }
 
-TEST_P(WetStiffnessLinks, AreBulletsOwnAfterRemoval) {
+TEST_IN_POSITION_BASED_WORLDS(WetStiffnessLinks, AreBulletsOwnAfterRemoval) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));
   scene.step(1);
   WetStiffness& effect = scene.cloth().add<WetStiffness>({0.7, 0.3});
@@ -111,7 +110,7 @@ TEST_P(WetStiffnessLinks, AreBulletsOwnAfterRemoval) {
   EXPECT_EQ(ours, constantsOf(scene.body()));
 }
 
-TEST_P(WetStiffnessLinks, AreBulletsOwnWhileTheClothIsDry) {
+TEST_IN_POSITION_BASED_WORLDS(WetStiffnessLinks, AreBulletsOwnWhileTheClothIsDry) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));
   scene.cloth().add<WetStiffness>({0.7, 0.3});
   scene.step(5);
@@ -120,7 +119,7 @@ TEST_P(WetStiffnessLinks, AreBulletsOwnWhileTheClothIsDry) {
   EXPECT_EQ(ours, constantsOf(scene.body()));
 }
 
-TEST_P(WetStiffnessLinks, LeaveAMaterialThatTwoBodiesShareAlone) {
+TEST_IN_POSITION_BASED_WORLDS(WetStiffnessLinks, LeaveAMaterialThatTwoBodiesShareAlone) {
   const auto run = [](bool softens, std::vector<btVector3>& positions) {
     ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
     const auto other = levelPatch(5, 1).build(scene.bullet().info());
@@ -150,7 +149,7 @@ TEST_P(WetStiffnessLinks, LeaveAMaterialThatTwoBodiesShareAlone) {
 }
 
 // A kLST above 1 lets a link overshoot, and from 2 on it explodes.
-TEST_P(WetStiffnessLinks, AreNeverStifferThanBulletCanBear) {
+TEST_IN_POSITION_BASED_WORLDS(WetStiffnessLinks, AreNeverStifferThanBulletCanBear) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   scene.body().m_links[0].m_material->m_kLST = btScalar(0.4);
   scene.step(1);
@@ -165,7 +164,7 @@ TEST_P(WetStiffnessLinks, AreNeverStifferThanBulletCanBear) {
   for (int i = 0; i < 25; ++i) EXPECT_TRUE(std::isfinite(double(scene.node(i).m_x.y())));
 }
 
-TEST_P(WetStiffnessLinks, KeepTheirFactorsWhenTheApplicationChangesAMass) {
+TEST_IN_POSITION_BASED_WORLDS(WetStiffnessLinks, KeepTheirFactorsWhenTheApplicationChangesAMass) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   scene.step(1);
   scene.cloth().add<WetStiffness>({0.7, 0.3});
@@ -177,7 +176,7 @@ TEST_P(WetStiffnessLinks, KeepTheirFactorsWhenTheApplicationChangesAMass) {
   expectConstants(scene, 0.7, 0.3);
 }
 
-TEST_P(WetStiffnessLinks, CostNothingOnceTheWaterRests) {
+TEST_IN_POSITION_BASED_WORLDS(WetStiffnessLinks, CostNothingOnceTheWaterRests) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   WetStiffness& effect = scene.cloth().add<WetStiffness>();
   wetcloth::Absorption::Parameters ramp;
@@ -200,7 +199,7 @@ TEST_P(WetStiffnessLinks, CostNothingOnceTheWaterRests) {
   EXPECT_EQ(scene.cloth().linkConstants().refreshes(), refreshes);
 }
 
-TEST_P(WetStiffnessLinks, AreLeftAloneByFactorsOfOne) {
+TEST_IN_POSITION_BASED_WORLDS(WetStiffnessLinks, AreLeftAloneByFactorsOfOne) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   WetStiffness& effect = scene.cloth().add<WetStiffness>({1, 1});
   scene.cloth().setSaturation(1);
@@ -211,7 +210,7 @@ TEST_P(WetStiffnessLinks, AreLeftAloneByFactorsOfOne) {
 }
 
 // At rest a link of stiffness k has its error d + g dt^2 before, and d after n iterations: d = (d + g dt^2) (1 - k)^n.
-TEST_P(WetStiffnessLinks, OneThatHoldsAWeightSagsByItsStiffnessAndTheIterations) {
+TEST_IN_POSITION_BASED_WORLDS(WetStiffnessLinks, OneThatHoldsAWeightSagsByItsStiffnessAndTheIterations) {
   const double dt = 1.0 / 60;
   for (const auto& [iterations, wet] : {std::pair(1, 0.5), std::pair(2, 0.5), std::pair(4, 0.25)}) {
     for (double mass : {0.01, 1.0}) {
@@ -234,7 +233,7 @@ TEST_P(WetStiffnessLinks, OneThatHoldsAWeightSagsByItsStiffnessAndTheIterations)
 
 // Measured with plain Bullet: 2.9 to 3.7 times for ropes of 10 and 20 links and 1 to 10 iterations. Links that are
 // corrected one after the other with a share k converge about k / (2 - k) times as fast as with 1.
-TEST_P(WetStiffnessLinks, OfHalfTheStiffnessLetARopeSagAboutThreeTimesAsFar) {
+TEST_IN_POSITION_BASED_WORLDS(WetStiffnessLinks, OfHalfTheStiffnessLetARopeSagAboutThreeTimesAsFar) {
   const auto sag = [](double wet) {
     ClothScene scene(GetParam(), kEarthGravity, hangingRope(10, 0.1, 0.01));
     scene.body().m_cfg.piterations = 10;
@@ -251,7 +250,7 @@ TEST_P(WetStiffnessLinks, OfHalfTheStiffnessLetARopeSagAboutThreeTimesAsFar) {
   EXPECT_NEAR(sag(0.5) / stiff, 3.3, 0.5);
 }
 
-TEST_P(WetStiffnessLinks, OfABodyCutMidRunFollowItsNewNodes) {
+TEST_IN_POSITION_BASED_WORLDS(WetStiffnessLinks, OfABodyCutMidRunFollowItsNewNodes) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   scene.wet().setLog({});
   scene.step(1);
@@ -264,9 +263,6 @@ TEST_P(WetStiffnessLinks, OfABodyCutMidRunFollowItsNewNodes) {
   scene.step(2);  // Bullet writes its own constants in the first
   expectConstants(scene, 0.7, 0.3);
 }
-
-INSTANTIATE_TEST_SUITE_P(, WetStiffnessLinks, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
-                         [](const auto& world) { return std::string(nameOf(world.param)); });
 
 }  // namespace
 }  // namespace wetcloth_test::wet_stiffness_links_test

@@ -42,11 +42,9 @@ double extension(const btSoftBody& body, int link) {
   return double((body.m_links[link].m_n[0]->m_x - body.m_links[link].m_n[1]->m_x).length()) - kLength;
 }
 
-using WetStiffnessSprings = InEveryWorld;
-
 // As for a dry chain (HookeSpringsStatics): what is left of the fall is 1e-3 of it, and float32 knows 0.8 m to 3e-5 of
 // the smallest extension.
-TEST_P(WetStiffnessSprings, HangingChainStretchesByItsWeightOverTheSoftenedStiffness) {
+TEST_IN_EVERY_WORLD(WetStiffnessSprings, HangingChainStretchesByItsWeightOverTheSoftenedStiffness) {
   for (double wet : {0.5, 2.0}) {
     ClothScene scene(GetParam(), kEarthGravity, hangingRope(kLinks, kLength, kNodeMass));
     scene.cloth().add<HookeSprings>(springs(kStiffness));
@@ -61,7 +59,7 @@ TEST_P(WetStiffnessSprings, HangingChainStretchesByItsWeightOverTheSoftenedStiff
   }
 }
 
-TEST_P(WetStiffnessSprings, EachLinkGoesByItsOwnNodes) {
+TEST_IN_EVERY_WORLD(WetStiffnessSprings, EachLinkGoesByItsOwnNodes) {
   ClothScene scene(GetParam(), kEarthGravity, hangingRope(kLinks, kLength, kNodeMass));
   scene.cloth().add<HookeSprings>(springs(kStiffness));
   scene.cloth().add<WetStiffness>({0.4, 1});
@@ -79,7 +77,7 @@ TEST_P(WetStiffnessSprings, EachLinkGoesByItsOwnNodes) {
 
 // The forces follow every change of K, however seldom the matrix does: a chain that soaked step by step ends where one
 // that was wet from the start does.
-TEST_P(WetStiffnessSprings, ChainThatSoaksWhileItHangsEndsAtTheClosedForm) {
+TEST_IN_EVERY_WORLD(WetStiffnessSprings, ChainThatSoaksWhileItHangsEndsAtTheClosedForm) {
   ClothScene scene(GetParam(), kEarthGravity, hangingRope(kLinks, kLength, kNodeMass));
   scene.cloth().add<HookeSprings>(springs(kStiffness));
   scene.cloth().add<WetStiffness>({0.5, 1});
@@ -95,7 +93,7 @@ TEST_P(WetStiffnessSprings, ChainThatSoaksWhileItHangsEndsAtTheClosedForm) {
   }
 }
 
-TEST_P(WetStiffnessSprings, AStripThatIsHeldAtOneEndDroopsMoreWhenItsBendingIsSoftened) {
+TEST_IN_EVERY_WORLD(WetStiffnessSprings, AStripThatIsHeldAtOneEndDroopsMoreWhenItsBendingIsSoftened) {
   const auto droop = [](double wetBending) {
     wetcloth::ClothPatch patch;
     patch.columns = 8;
@@ -120,7 +118,7 @@ TEST_P(WetStiffnessSprings, AStripThatIsHeldAtOneEndDroopsMoreWhenItsBendingIsSo
   EXPECT_LT(limp, 0.35);
 }
 
-TEST_P(WetStiffnessSprings, LoseTheirSofteningWithTheEffect) {
+TEST_IN_EVERY_WORLD(WetStiffnessSprings, LoseTheirSofteningWithTheEffect) {
   ClothScene scene(GetParam(), kEarthGravity, hangingRope(kLinks, kLength, kNodeMass));
   scene.cloth().add<HookeSprings>(springs(kStiffness));
   WetStiffness& effect = scene.cloth().add<WetStiffness>({0.25, 1});
@@ -131,7 +129,7 @@ TEST_P(WetStiffnessSprings, LoseTheirSofteningWithTheEffect) {
   EXPECT_NEAR(extension(scene.body(), 0) / (kLinks * 1.84 * kNodeMass * kGravity / kStiffness), 1, 0.01);
 }
 
-TEST_P(WetStiffnessSprings, FactorTheirMatrixSeldom) {
+TEST_IN_EVERY_WORLD(WetStiffnessSprings, FactorTheirMatrixSeldom) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(5, 1));
   HookeSprings& effect = scene.cloth().add<HookeSprings>();
   scene.cloth().add<WetStiffness>({0.5, 0.25});
@@ -149,7 +147,7 @@ TEST_P(WetStiffnessSprings, FactorTheirMatrixSeldom) {
 
 // Water that weighs nothing to speak of, so that the stiffness alone calls for a new matrix; the old one would not
 // bound springs that are fifty times as stiff, and they would explode.
-TEST_P(WetStiffnessSprings, FactorTheirMatrixWhenOnlyTheStiffnessChanged) {
+TEST_IN_EVERY_WORLD(WetStiffnessSprings, FactorTheirMatrixWhenOnlyTheStiffnessChanged) {
   wetcloth::Fabric fabric;
   fabric.capacity = 1e-6;
   ClothScene scene(GetParam(), kEarthGravity, hangingRope(kLinks, kLength, kNodeMass), fabric);
@@ -164,7 +162,7 @@ TEST_P(WetStiffnessSprings, FactorTheirMatrixWhenOnlyTheStiffnessChanged) {
   EXPECT_NEAR(extension(scene.body(), 0) / (kLinks * kNodeMass * kGravity / (50 * kStiffness)), 1, 0.01);
 }
 
-TEST_P(WetStiffnessSprings, GoOnAfterACut) {
+TEST_IN_EVERY_WORLD(WetStiffnessSprings, GoOnAfterACut) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(6, 1));
   scene.wet().setLog({});
   scene.cloth().add<HookeSprings>(springs(200));
@@ -180,11 +178,7 @@ TEST_P(WetStiffnessSprings, GoOnAfterACut) {
   EXPECT_EQ(int(scene.cloth().linkConstants().stiffness().size()), scene.body().m_links.size());
 }
 
-WETCLOTH_IN_EVERY_WORLD(WetStiffnessSprings);
-
-using WetStiffnessOrder = testing::TestWithParam<WorldKind>;
-
-TEST_P(WetStiffnessOrder, OfAddingDoesNotMatter) {
+TEST_IN_POSITION_BASED_WORLDS(WetStiffnessOrder, OfAddingDoesNotMatter) {
   const auto heights = [](bool springsFirst) {
     ClothScene scene(GetParam(), kEarthGravity, hangingRope(kLinks, kLength, kNodeMass));
     if (springsFirst) scene.cloth().add<HookeSprings>(springs(kStiffness));
@@ -198,9 +192,6 @@ TEST_P(WetStiffnessOrder, OfAddingDoesNotMatter) {
   };
   EXPECT_EQ(heights(true), heights(false));
 }
-
-INSTANTIATE_TEST_SUITE_P(, WetStiffnessOrder, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
-                         [](const auto& world) { return std::string(nameOf(world.param)); });
 
 }  // namespace
 }  // namespace wetcloth_test::wet_stiffness_springs_test

@@ -55,9 +55,7 @@ double worstTimeError(ClothScene& scene, const Fall& closedForm) {
   return worst;
 }
 
-using WindMotionInWorld = InEveryWorld;
-
-TEST_P(WindMotionInWorld, FallThroughLinearDragFollowsTheClosedForm) {
+TEST_IN_EVERY_WORLD(WindMotionInWorld, FallThroughLinearDragFollowsTheClosedForm) {
   for (double saturation : {0.0, 1.0}) {
     ClothScene scene(GetParam(), kEarthGravity, levelPatch(9, 1));
     scene.addBulletSpringsForStep();
@@ -69,7 +67,7 @@ TEST_P(WindMotionInWorld, FallThroughLinearDragFollowsTheClosedForm) {
   }
 }
 
-TEST_P(WindMotionInWorld, FallThroughQuadraticDragFollowsTheClosedForm) {
+TEST_IN_EVERY_WORLD(WindMotionInWorld, FallThroughQuadraticDragFollowsTheClosedForm) {
   for (double saturation : {0.0, 1.0}) {
     ClothScene scene(GetParam(), kEarthGravity, levelPatch(9, 1));
     scene.addBulletSpringsForStep();
@@ -80,7 +78,7 @@ TEST_P(WindMotionInWorld, FallThroughQuadraticDragFollowsTheClosedForm) {
   }
 }
 
-TEST_P(WindMotionInWorld, WithoutAirWetAndDryFallAlike) {
+TEST_IN_EVERY_WORLD(WindMotionInWorld, WithoutAirWetAndDryFallAlike) {
   for (double saturation : {0.0, 1.0}) {
     ClothScene scene(GetParam(), kEarthGravity, levelPatch(9, 1));
     scene.addBulletSpringsForStep();
@@ -89,7 +87,7 @@ TEST_P(WindMotionInWorld, WithoutAirWetAndDryFallAlike) {
   }
 }
 
-TEST_P(WindMotionInWorld, FallEndsAtTheTerminalSpeed) {
+TEST_IN_EVERY_WORLD(WindMotionInWorld, FallEndsAtTheTerminalSpeed) {
   EXPECT_NEAR(terminalSpeed(0.150), 1.43, 0.005);  // 1.41 m/s with rho 1.225
   for (double saturation : {0.0, 0.5, 1.0}) {
     ClothScene scene(GetParam(), kEarthGravity, levelPatch(9, 1));
@@ -104,7 +102,7 @@ TEST_P(WindMotionInWorld, FallEndsAtTheTerminalSpeed) {
   }
 }
 
-TEST_P(WindMotionInWorld, ClothDriftsWithTheWindInTheEnd) {
+TEST_IN_EVERY_WORLD(WindMotionInWorld, ClothDriftsWithTheWindInTheEnd) {
   ClothScene scene(GetParam(), kNoGravity, levelPatch(5, 1));
   scene.addBulletSpringsForStep();
   scene.cloth().add<Wind>(air(Law::linear, btVector3(0, 3, 0)));
@@ -116,7 +114,7 @@ TEST_P(WindMotionInWorld, ClothDriftsWithTheWindInTheEnd) {
 }
 
 // A cloth of light nodes in a gale with a large step: 1e-5 kg per node, 50 m/s, 1/30 s.
-TEST_P(WindMotionInWorld, LightNodesNeverOutrunAGaleFromTheFront) {
+TEST_IN_EVERY_WORLD(WindMotionInWorld, LightNodesNeverOutrunAGaleFromTheFront) {
   ClothScene scene(GetParam(), kNoGravity, levelPatch(10, 1, 81 * 1e-5));
   scene.addBulletSpringsForStep(1.0 / 30);
   scene.cloth().add<Wind>(air(Law::quadratic, btVector3(0, 50, 0)));
@@ -130,7 +128,7 @@ TEST_P(WindMotionInWorld, LightNodesNeverOutrunAGaleFromTheFront) {
 
 // The same in a slanting gale and falling: it tumbles, and a corner may whip round faster than the air, but not all of
 // it. The bound is the wind's speed; gravity's share is 1e-5 of the air's force.
-TEST_P(WindMotionInWorld, TumblingClothAsAWholeNeverOutrunsAGale) {
+TEST_IN_EVERY_WORLD(WindMotionInWorld, TumblingClothAsAWholeNeverOutrunsAGale) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(10, 1, 81 * 1e-5));
   scene.addBulletSpringsForStep(1.0 / 30);
   scene.cloth().add<Wind>(air(Law::quadratic, btVector3(30, 40, 0)));
@@ -141,8 +139,6 @@ TEST_P(WindMotionInWorld, TumblingClothAsAWholeNeverOutrunsAGale) {
     ASSERT_LE(speed, 50 * (1 + 1e-3)) << step;
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(WindMotionInWorld);
 
 // --- semi-implicit integration ------------------------------------------------------------------------------------
 

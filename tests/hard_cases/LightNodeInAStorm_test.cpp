@@ -45,9 +45,7 @@ wetcloth::Wind::Parameters storm(double speed, wetcloth::Wind::Law law, double s
   return wind;
 }
 
-using LightNodeInAStorm = InEveryWorld;
-
-TEST_P(LightNodeInAStorm, NeverOutrunsTheAir) {
+TEST_IN_EVERY_WORLD(LightNodeInAStorm, NeverOutrunsTheAir) {
   for (const double speed : {1.0, 50.0}) {
     for (const double dt : {1.0 / 240, 1.0 / 30, 0.25}) {
       for (const auto law : {wetcloth::Wind::Law::quadratic, wetcloth::Wind::Law::linear}) {
@@ -63,7 +61,7 @@ TEST_P(LightNodeInAStorm, NeverOutrunsTheAir) {
 }
 
 // Oblique air reaches folds, corners and moving neighbours too.
-TEST_P(LightNodeInAStorm, NeverOutrunsObliqueAirEither) {
+TEST_IN_EVERY_WORLD(LightNodeInAStorm, NeverOutrunsObliqueAirEither) {
   wetcloth::Wind::Parameters wind = storm(0, wetcloth::Wind::Law::quadratic, 0.05);
   wind.velocity = btVector3(30, 20, btScalar(34.641016));  // 50 m/s
   const double result = fastest(GetParam(), wind, 1.0 / 30, 60);
@@ -72,7 +70,7 @@ TEST_P(LightNodeInAStorm, NeverOutrunsObliqueAirEither) {
 
 // Whatever the nodes' velocities are: air that is the same everywhere only takes away from what each node has relative
 // to it. Only our own part of the step.
-TEST_P(LightNodeInAStorm, IsNeverPushedPastTheAir) {
+TEST_IN_EVERY_WORLD(LightNodeInAStorm, IsNeverPushedPastTheAir) {
   const btVector3 air(30, 20, btScalar(34.641016));
   for (const auto law : {wetcloth::Wind::Law::quadratic, wetcloth::Wind::Law::linear}) {
     BodyScene scene(GetParam(), lightSail(), btVector3(0, 0, 0));
@@ -103,7 +101,7 @@ TEST_P(LightNodeInAStorm, IsNeverPushedPastTheAir) {
 
 // Gusts that turn round from step to step and differ from place to place. A sheet that glides one way and is hit from
 // another may have both velocities, so the bound is not the air's speed itself; an explicit step leaves any bound.
-TEST_P(LightNodeInAStorm, StaysWithTheGusts) {
+TEST_IN_EVERY_WORLD(LightNodeInAStorm, StaysWithTheGusts) {
   wetcloth::Wind::Parameters wind = storm(0, wetcloth::Wind::Law::quadratic, 0);
   wind.velocity = [](const btVector3& x, double time) {
     const bool there = (int(std::floor(time * 30 + 0.5)) + int(x.x() > 0.5)) % 2 == 0;
@@ -113,14 +111,14 @@ TEST_P(LightNodeInAStorm, StaysWithTheGusts) {
 }
 
 // What the semi-implicit step is for: the explicit one is kept for this comparison only.
-TEST_P(LightNodeInAStorm, TheExplicitWindOutrunsTheAir) {
+TEST_IN_EVERY_WORLD(LightNodeInAStorm, TheExplicitWindOutrunsTheAir) {
   wetcloth::Wind::Parameters wind = storm(50, wetcloth::Wind::Law::quadratic, 0);
   wind.integration = wetcloth::Wind::Integration::explicitEuler;
   // Bullet's deformable world cuts speeds at the body's size per step, 42 m/s and more as it is torn apart.
   EXPECT_GT(fastest(GetParam(), wind, 1.0 / 30, 3), 60);
 }
 
-TEST_P(LightNodeInAStorm, AirOfAMillionMetresPerSecondStaysFinite) {
+TEST_IN_EVERY_WORLD(LightNodeInAStorm, AirOfAMillionMetresPerSecondStaysFinite) {
   for (const auto law : {wetcloth::Wind::Law::quadratic, wetcloth::Wind::Law::linear}) {
     for (const double dt : {1.0 / 240, 1.0 / 30}) {
       EXPECT_LE(fastest(GetParam(), storm(1e6, law, 0), dt, 30), 1e6 * (1 + 1e-4)) << dt;
@@ -129,7 +127,7 @@ TEST_P(LightNodeInAStorm, AirOfAMillionMetresPerSecondStaysFinite) {
 }
 
 // Heavy beside light by 1e4, in both directions, hanging in the storm.
-TEST_P(LightNodeInAStorm, AMassRatioOfTenThousandIsStable) {
+TEST_IN_EVERY_WORLD(LightNodeInAStorm, AMassRatioOfTenThousandIsStable) {
   for (const bool heavyFirst : {false, true}) {
     wetcloth::ClothPatch patch = lightSail();
     patch.pinnedEdges = {wetcloth::ClothPatch::Edge::top};
@@ -158,7 +156,7 @@ TEST_P(LightNodeInAStorm, AMassRatioOfTenThousandIsStable) {
 }
 
 // One node made 1e4 times as heavy as its neighbours by water alone.
-TEST_P(LightNodeInAStorm, WaterThatMakesAMassRatioOfTenThousandIsStable) {
+TEST_IN_EVERY_WORLD(LightNodeInAStorm, WaterThatMakesAMassRatioOfTenThousandIsStable) {
   BodyScene scene(GetParam(), hangingPatch(6));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -174,7 +172,7 @@ TEST_P(LightNodeInAStorm, WaterThatMakesAMassRatioOfTenThousandIsStable) {
 }
 
 // Ten seconds in one step, with everything.
-TEST_P(LightNodeInAStorm, AStepOfTenSecondsStaysFinite) {
+TEST_IN_EVERY_WORLD(LightNodeInAStorm, AStepOfTenSecondsStaysFinite) {
   BodyScene scene(GetParam(), hangingPatch(6));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body());
@@ -190,8 +188,6 @@ TEST_P(LightNodeInAStorm, AStepOfTenSecondsStaysFinite) {
   EXPECT_LE(cloth.meanSaturation(), 1 + 1e-12);
   EXPECT_NEAR(cloth.meanSaturation(), 1 - std::exp(-100 / 8.844), 1e-9) << "exact whatever the step";
 }
-
-WETCLOTH_IN_EVERY_WORLD(LightNodeInAStorm);
 
 }  // namespace
 }  // namespace wetcloth_test::light_node_in_astorm_test

@@ -27,9 +27,7 @@ water_cycle::Choice everything(std::mt19937& random) {
   return choice;
 }
 
-using WaterLedger = InEveryWorld;
-
-TEST_P(WaterLedger, ClosesAfterAHundredThousandStepsOfEverything) {
+TEST_IN_EVERY_WORLD(WaterLedger, ClosesAfterAHundredThousandStepsOfEverything) {
   std::mt19937 random(5);
   BodyScene scene(GetParam(), hangingPatch(4));
   water_cycle::giveWater(scene.bullet().info(), btScalar(0.4));
@@ -48,8 +46,6 @@ TEST_P(WaterLedger, ClosesAfterAHundredThousandStepsOfEverything) {
   EXPECT_GT(ledger.dripped, 0);
   EXPECT_GT(ledger.evaporated, 0);
 }
-
-WETCLOTH_IN_EVERY_WORLD(WaterLedger);
 
 }  // namespace
 }  // namespace wetcloth_test::water_ledger_test

@@ -251,16 +251,14 @@ TEST(ClothPatch, BuildsMoreNodesThanBulletsOwnBendingHelperBears) {
   EXPECT_NEAR(freeMass(*built.body), 0.150, 1e-5);
 }
 
-using ClothPatchInWorld = InEveryWorld;
-
-TEST_P(ClothPatchInWorld, FallsFreelyAndKeepsItsShape) {
+TEST_IN_EVERY_WORLD(ClothPatchInWorld, FallsFreelyAndKeepsItsShape) {
   ClothScene scene(GetParam(), kEarthGravity, levelPatch(9, 1));
   scene.step(120);
   EXPECT_NEAR(centreOfMass(scene.body())[1], -9.81 / 8, 9.81 / 2 * kSubstep);
   EXPECT_NEAR((scene.node(0).m_x - scene.node(80).m_x).length(), std::sqrt(2.0), 1e-4);
 }
 
-TEST_P(ClothPatchInWorld, HangsFromItsPins) {
+TEST_IN_EVERY_WORLD(ClothPatchInWorld, HangsFromItsPins) {
   ClothPatch patch = sized(9, 9);
   patch.edgeV = btVector3(0, 1, 0);
   patch.pinnedEdges = {ClothPatch::Edge::top};
@@ -270,8 +268,6 @@ TEST_P(ClothPatchInWorld, HangsFromItsPins) {
   for (int i = 0; i < 9; ++i) EXPECT_EQ(scene.node(patch.node(i, 8)).m_x.y(), 1);
   for (int i = 0; i < 9; ++i) EXPECT_NEAR(scene.node(patch.node(i, 0)).m_x.y(), 0, 0.1);
 }
-
-WETCLOTH_IN_EVERY_WORLD(ClothPatchInWorld);
 
 // --- bad input
 // --------------------------------------------------------------------------------------------------------

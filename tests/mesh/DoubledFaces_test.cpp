@@ -81,7 +81,7 @@ Outcome run(WorldKind kind, bool isDoubled, const Add& add) {
   return outcome;
 }
 
-class DoubledFaces : public InEveryWorld {
+class DoubledFaces {
  protected:
   void areOneLayer(const Add& add) {
     const Outcome single = run(GetParam(), false, add);
@@ -94,32 +94,32 @@ class DoubledFaces : public InEveryWorld {
   }
 };
 
-TEST_P(DoubledFaces, Dry) {
+TEST_F_IN_EVERY_WORLD(DoubledFaces, Dry) {
   areOneLayer([](WetCloth& cloth) { cloth.add<wetcloth::Drying>(); });
 }
 
-TEST_P(DoubledFaces, Diffuse) {
+TEST_F_IN_EVERY_WORLD(DoubledFaces, Diffuse) {
   areOneLayer([](WetCloth& cloth) { cloth.add<wetcloth::Diffusion>(); });
 }
 
-TEST_P(DoubledFaces, DiffuseAlongTheWarp) {
+TEST_F_IN_EVERY_WORLD(DoubledFaces, DiffuseAlongTheWarp) {
   wetcloth::Diffusion::Parameters wicking;
   wicking.warpDiffusivity *= 3;
   areOneLayer([&](WetCloth& cloth) { cloth.add<wetcloth::Diffusion>(wicking); });
 }
 
-TEST_P(DoubledFaces, Seep) {
+TEST_F_IN_EVERY_WORLD(DoubledFaces, Seep) {
   areOneLayer([](WetCloth& cloth) { cloth.add<wetcloth::Seepage>(); });
 }
 
-TEST_P(DoubledFaces, Drip) {
+TEST_F_IN_EVERY_WORLD(DoubledFaces, Drip) {
   areOneLayer([](WetCloth& cloth) {
     cloth.setSaturation(1);
     cloth.add<wetcloth::Dripping>();
   });
 }
 
-TEST_P(DoubledFaces, CatchRain) {
+TEST_F_IN_EVERY_WORLD(DoubledFaces, CatchRain) {
   for (const bool selfShelter : {false, true}) {
     wetcloth::Rain::Parameters rain;
     rain.selfShelter = selfShelter;
@@ -127,7 +127,7 @@ TEST_P(DoubledFaces, CatchRain) {
   }
 }
 
-TEST_P(DoubledFaces, FeelWind) {
+TEST_F_IN_EVERY_WORLD(DoubledFaces, FeelWind) {
   using Law = wetcloth::Wind::Law;
   for (const Law law : {Law::quadratic, Law::linear, Law::paper}) {
     wetcloth::Wind::Parameters air;
@@ -138,14 +138,12 @@ TEST_P(DoubledFaces, FeelWind) {
   }
 }
 
-TEST_P(DoubledFaces, FeelWater) {
+TEST_F_IN_EVERY_WORLD(DoubledFaces, FeelWater) {
   wetcloth::WaterDrag::Parameters pool;
   pool.surface = wetcloth::WaterSurface();
   pool.surface->offset = -0.25;
   areOneLayer([&](WetCloth& cloth) { cloth.add<wetcloth::WaterDrag>(pool); });
 }
-
-WETCLOTH_IN_EVERY_WORLD(DoubledFaces);
 
 TEST(DoubledFacesOf, AMeshHaveOneLayersArea) {
   btSoftBodyWorldInfo info;

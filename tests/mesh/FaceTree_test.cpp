@@ -58,9 +58,7 @@ TEST(FaceTree, HasEveryFaceOnce) {
   EXPECT_EQ(body->m_fdbvt.m_root->parent, nullptr);
 }
 
-using FaceTreeTest = InEveryWorld;
-
-TEST_P(FaceTreeTest, ClothInTwoPartsRunsAndCollides) {
+TEST_IN_EVERY_WORLD(FaceTreeTest, ClothInTwoPartsRunsAndCollides) {
   BulletWorld world(GetParam());
   auto below = twoParts(world.info(), 0);
   auto above = twoParts(world.info(), btScalar(0.1));
@@ -96,7 +94,7 @@ std::unique_ptr<btSoftBody> withoutLinks(btSoftBodyWorldInfo& info) {
 }
 
 // A step that Bullet does not come back from would hang the test: so the tree is looked for before.
-TEST_P(FaceTreeTest, AClothThatBulletHangsOnGetsOneInItsFirstStep) {
+TEST_IN_EVERY_WORLD(FaceTreeTest, AClothThatBulletHangsOnGetsOneInItsFirstStep) {
   for (const bool hasLinks : {true, false}) {
     BulletWorld world(GetParam());
     const auto body = hasLinks ? twoParts(world.info(), 0) : withoutLinks(world.info());
@@ -118,7 +116,7 @@ TEST_P(FaceTreeTest, AClothThatBulletHangsOnGetsOneInItsFirstStep) {
   }
 }
 
-TEST_P(FaceTreeTest, WhatBulletDoesByItselfIsLeftToIt) {
+TEST_IN_EVERY_WORLD(FaceTreeTest, WhatBulletDoesByItselfIsLeftToIt) {
   BulletWorld world(GetParam());
   const auto whole = squarePatch(4).build(world.info());
   const auto withoutFlag = twoParts(world.info(), 5);
@@ -139,8 +137,6 @@ TEST_P(FaceTreeTest, WhatBulletDoesByItselfIsLeftToIt) {
   }
   for (btSoftBody* body : {whole.get(), withoutFlag.get()}) world.remove(*body);
 }
-
-WETCLOTH_IN_EVERY_WORLD(FaceTreeTest);
 
 }  // namespace
 }  // namespace wetcloth_test::face_tree_test

@@ -141,10 +141,7 @@ void makeTreeInOrder(btSoftBody& body) {
   }
 }
 
-using LooseNodesInAWorld = InEveryWorld;
-WETCLOTH_IN_EVERY_WORLD(LooseNodesInAWorld);
-
-TEST_P(LooseNodesInAWorld, MoveAsOnBulletsTreeWhereNothingTouchesThem) {
+TEST_IN_EVERY_WORLD(LooseNodesInAWorld, MoveAsOnBulletsTreeWhereNothingTouchesThem) {
   BulletWorld ourWorld(GetParam()), bulletsWorld(GetParam());
   const auto ours = hangingPatch().build(ourWorld.info());
   const auto bullets = hangingPatch().build(bulletsWorld.info());

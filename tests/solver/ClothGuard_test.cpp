@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // With the guard no vertex meets a face, and no edge an edge, from small step to small step.
 #include "tests/solver/GuardScene.h"
+#include "tests/support/InEveryWorld.h"
 
 #include <gtest/gtest.h>
 
@@ -9,17 +10,13 @@
 namespace wetcloth_test::cloth_guard_test {
 namespace {
 
-class ClothGuard : public testing::TestWithParam<WorldKind> {};
-INSTANTIATE_TEST_SUITE_P(, ClothGuard, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
-                         [](const auto& test) { return std::string(nameOf(test.param)); });
-
 void expectNothingImposed(const wetcloth::ClothSolver::GuardTotals& totals) {
   EXPECT_EQ(totals.forced, 0);
   EXPECT_EQ(totals.meeting, 0);
   EXPECT_EQ(totals.halts, 0);
 }
 
-TEST_P(ClothGuard, ASheetFallsIntoAHeapAndRests) {
+TEST_IN_POSITION_BASED_WORLDS(ClothGuard, ASheetFallsIntoAHeapAndRests) {
   GuardScene scene(Guard(), GetParam());
   btSoftBody& body = scene.add(wavySheet(16));
   scene.addFloor();
@@ -50,7 +47,7 @@ void dropTwo(GuardScene& scene, int steps = 75) {
   scene.step(steps);
 }
 
-TEST_P(ClothGuard, TwoClothsFallIntoOneHeap) {
+TEST_IN_POSITION_BASED_WORLDS(ClothGuard, TwoClothsFallIntoOneHeap) {
   GuardScene scene(Guard(), GetParam());
   dropTwo(scene);
   EXPECT_EQ(scene.passages(), 0);
@@ -173,7 +170,7 @@ TEST(ClothGuardPromise, PinsArriveWhereTheyWerePut) {
 }
 
 // Two cloths in weightlessness that fly into each other: what one loses the other gains.
-TEST_P(ClothGuard, ClothsThatCollideKeepTheirMomentum) {
+TEST_IN_POSITION_BASED_WORLDS(ClothGuard, ClothsThatCollideKeepTheirMomentum) {
   GuardScene scene(Guard(), GetParam(), kNoGravity);
   btSoftBody& lower = scene.add(levelSheet(10, 0.5, btVector3(0, 0, 0)));
   btSoftBody& upper = scene.add(levelSheet(11, 0.4, btVector3(btScalar(0.03), btScalar(0.1), btScalar(0.02))));

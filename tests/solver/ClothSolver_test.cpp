@@ -4,6 +4,7 @@
 #include "tests/solver/SolverScene.h"
 #include "tests/support/BodyScene.h"
 #include "tests/support/BodyState.h"
+#include "tests/support/InEveryWorld.h"
 #include "tests/support/Measures.h"
 #include "tests/support/Rejection.h"
 #include "tests/support/RigidBody.h"
@@ -41,12 +42,8 @@ btSoftBody& addSheet(SolverScene& scene, int n, double height = 0) {
   return body;
 }
 
-using InPositionBasedWorlds = testing::TestWithParam<WorldKind>;
-INSTANTIATE_TEST_SUITE_P(, InPositionBasedWorlds, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
-                         [](const auto& test) { return std::string(nameOf(test.param)); });
-
 // A quarter of Bullet's stretch is what small steps are for; half leaves room for the moment at which it is looked at.
-TEST_P(InPositionBasedWorlds, AHangingClothStretchesLessThanInBulletsSolver) {
+TEST_IN_POSITION_BASED_WORLDS(InPositionBasedWorlds, AHangingClothStretchesLessThanInBulletsSolver) {
   const wetcloth::ClothPatch patch = hangingPatch(24);
   BodyScene bullets(GetParam(), patch);
   SolverScene scene(GetParam());
@@ -58,7 +55,7 @@ TEST_P(InPositionBasedWorlds, AHangingClothStretchesLessThanInBulletsSolver) {
   EXPECT_LT(stretchOf(body).mean - 1, (stretchOf(bullets.body()).mean - 1) / 2);
 }
 
-TEST_P(InPositionBasedWorlds, FallsAsTheClosedFormSays) {
+TEST_IN_POSITION_BASED_WORLDS(InPositionBasedWorlds, FallsAsTheClosedFormSays) {
   SolverScene scene(GetParam());
   btSoftBody& body = addSheet(scene, 9);
   scene.step(60);
@@ -163,7 +160,7 @@ TEST(ClothSolver, ABodyChangesSidesBetweenSteps) {
   EXPECT_LT(largestSpeed(body), 5);
 }
 
-TEST_P(InPositionBasedWorlds, ASheetComesToRestOnABox) {
+TEST_IN_POSITION_BASED_WORLDS(InPositionBasedWorlds, ASheetComesToRestOnABox) {
   SolverScene scene(GetParam());
   btSoftBody& body = addSheet(scene, 9, 0.3);
   RigidBody ground(scene.bullet(), box(2, 0.5, 2), 0, btVector3(0, btScalar(-0.5), 0));
@@ -175,7 +172,7 @@ TEST_P(InPositionBasedWorlds, ASheetComesToRestOnABox) {
 }
 
 // The rigid body takes what the cloth loses.
-TEST_P(InPositionBasedWorlds, AFlyingSheetAndABoxKeepTheirMomentum) {
+TEST_IN_POSITION_BASED_WORLDS(InPositionBasedWorlds, AFlyingSheetAndABoxKeepTheirMomentum) {
   SolverScene scene(GetParam(), kNoGravity);
   btSoftBody& body = addSheet(scene, 9, 0.3);
   RigidBody target(scene.bullet(), box(0.2, 0.1, 0.2), btScalar(0.3), btVector3(0, 0, 0));
@@ -201,7 +198,7 @@ TEST(ClothSolver, FrictionHoldsAClothOnASlope) {
   EXPECT_LT(slide(1), 0.02);
 }
 
-TEST_P(InPositionBasedWorlds, AnAnchoredClothPullsItsBody) {
+TEST_IN_POSITION_BASED_WORLDS(InPositionBasedWorlds, AnAnchoredClothPullsItsBody) {
   SolverScene scene(GetParam(), kNoGravity);
   btSoftBody& body = addSheet(scene, 7);
   RigidBody hook(scene.bullet(), box(0.05, 0.05, 0.05), btScalar(0.2), body.m_nodes[0].m_x);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // With the guard, bodies with VF_SS are taken, and what touches is listed as Bullet lists it.
 #include "tests/solver/GuardScene.h"
+#include "tests/support/InEveryWorld.h"
 
 #include <gtest/gtest.h>
 
@@ -31,10 +32,6 @@ BodyBuilder builderOf(const wetcloth::ClothPatch& patch) {
   return [=](btSoftBodyWorldInfo& info) { return patch.build(info); };
 }
 
-class GuardContacts : public testing::TestWithParam<WorldKind> {};
-INSTANTIATE_TEST_SUITE_P(, GuardContacts, testing::Values(WorldKind::softRigid, WorldKind::softMultiBody),
-                         [](const auto& test) { return std::string(nameOf(test.param)); });
-
 // --- who is taken ---------------------------------------------------------------------------------------------------
 
 std::string reasonWith(std::optional<Guard> guard, int flags, WorldKind kind) {
@@ -44,7 +41,7 @@ std::string reasonWith(std::optional<Guard> guard, int flags, WorldKind kind) {
   return scene.solver().reasonNotTaken(body);
 }
 
-TEST_P(GuardContacts, BodiesThatCollideAreTakenWithTheGuard) {
+TEST_IN_POSITION_BASED_WORLDS(GuardContacts, BodiesThatCollideAreTakenWithTheGuard) {
   Guard selfOnly;
   selfOnly.others = false;
   const int flags = Flags::SDF_RS | Flags::VF_SS;
@@ -56,7 +53,7 @@ TEST_P(GuardContacts, BodiesThatCollideAreTakenWithTheGuard) {
 }
 
 // Bullet's contacts and the guard's do not mix.
-TEST_P(GuardContacts, OneThatIsLeftToBulletKeepsTheOthersThere) {
+TEST_IN_POSITION_BASED_WORLDS(GuardContacts, OneThatIsLeftToBulletKeepsTheOthersThere) {
   GuardScene scene(Guard(), GetParam());
   btSoftBody& first = addSoft(scene, builderOf(levelSheet(5, 0.3, btVector3(0, 0, 0))));
   btSoftBody& other = addSoft(scene, builderOf(levelSheet(5, 0.3, btVector3(0, btScalar(0.1), 0))));
@@ -72,7 +69,7 @@ TEST_P(GuardContacts, OneThatIsLeftToBulletKeepsTheOthersThere) {
 }
 
 // Bullet makes the tree of faces by which it collides in a body's first step only.
-TEST_P(GuardContacts, BulletCollidesThemAgainWhenTheGuardIsTakenAway) {
+TEST_IN_POSITION_BASED_WORLDS(GuardContacts, BulletCollidesThemAgainWhenTheGuardIsTakenAway) {
   GuardScene scene(Guard(), GetParam(), kNoGravity);
   btSoftBody& lower = addSoft(scene, builderOf(levelSheet(5, 0.3, btVector3(0, 0, 0))));
   btSoftBody& upper = addSoft(scene, builderOf(levelSheet(5, 0.3, btVector3(0, btScalar(0.015), 0))));
@@ -193,7 +190,7 @@ int expectListed(const btSoftBody& vertexOf, const btSoftBody& faceOf) {
   return count;
 }
 
-TEST_P(GuardContacts, AreWhatASearchOfAllPairsFinds) {
+TEST_IN_POSITION_BASED_WORLDS(GuardContacts, AreWhatASearchOfAllPairsFinds) {
   GuardScene scene(thickGuard(), GetParam());
   scene.addFloor();
   const btSoftBody& first = addSoft(scene, wavySheet(11, 0.6));
@@ -223,7 +220,7 @@ BodyBuilder foldedSheet(int n, double side, double height) {
   };
 }
 
-TEST_P(GuardContacts, OfABodyWithItself) {
+TEST_IN_POSITION_BASED_WORLDS(GuardContacts, OfABodyWithItself) {
   GuardScene scene(thickGuard(), GetParam());
   scene.addFloor();
   const btSoftBody& body = addSoft(scene, foldedSheet(11, 0.3, 0.012));
@@ -232,7 +229,7 @@ TEST_P(GuardContacts, OfABodyWithItself) {
   EXPECT_EQ(expectListed(body, body), body.m_scontacts.size());
 }
 
-TEST_P(GuardContacts, AreOfBodiesThatAskForThem) {
+TEST_IN_POSITION_BASED_WORLDS(GuardContacts, AreOfBodiesThatAskForThem) {
   GuardScene scene(thickGuard(), GetParam());
   scene.addFloor();
   const btSoftBody& first = addSoft(scene, wavySheet(11, 0.6));
@@ -243,7 +240,7 @@ TEST_P(GuardContacts, AreOfBodiesThatAskForThem) {
   EXPECT_EQ(expectListed(first, first), first.m_scontacts.size());
 }
 
-TEST_P(GuardContacts, OfALayerThatLiesOnOneThatSleeps) {
+TEST_IN_POSITION_BASED_WORLDS(GuardContacts, OfALayerThatLiesOnOneThatSleeps) {
   GuardScene scene(thickGuard(), GetParam());
   btSoftBody& lower = addSoft(scene, builderOf(levelSheet(9, 0.3, btVector3(0, 0, 0))));
   const btSoftBody& upper =
@@ -255,7 +252,7 @@ TEST_P(GuardContacts, OfALayerThatLiesOnOneThatSleeps) {
 }
 
 // A layer that lies on another touches it in every step, not now and then.
-TEST_P(GuardContacts, OfALayerThatLiesOnAnotherDoNotFlicker) {
+TEST_IN_POSITION_BASED_WORLDS(GuardContacts, OfALayerThatLiesOnAnotherDoNotFlicker) {
   GuardScene scene(thickGuard(), GetParam());
   scene.addFloor();
   addSoft(scene, builderOf(levelSheet(9, 0.3, btVector3(0, btScalar(0.012), 0))));

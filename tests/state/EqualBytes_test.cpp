@@ -108,10 +108,7 @@ void expectEqualBytes(const Made& what) {
   EXPECT_EQ(different, 0u) << "of " << first.size() << " bytes; the first is " << where;
 }
 
-using EqualBytesOfACloth = InEveryWorld;
-TEST_P(EqualBytesOfACloth, WithAllThatABodyMayHave) { expectEqualBytes<FurnishedScene>(GetParam()); }
-WETCLOTH_IN_EVERY_WORLD(EqualBytesOfACloth);
-
+TEST_IN_EVERY_WORLD(EqualBytesOfACloth, WithAllThatABodyMayHave) { expectEqualBytes<FurnishedScene>(GetParam()); }
 using EqualBytes = testing::TestWithParam<Case>;
 TEST_P(EqualBytes, OfEqualStates) { expectEqualBytes<StateScene>(GetParam()); }
 

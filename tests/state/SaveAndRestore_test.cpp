@@ -91,9 +91,7 @@ TEST(SaveAndRestoreASleeper, WhichSleepsWhenItIsSaved) {
   EXPECT_FALSE(late.cloth().body().isActive());
 }
 
-using SaveAndRestoreACloth = InEveryWorld;
-
-TEST_P(SaveAndRestoreACloth, WithAllThatABodyMayHave) {
+TEST_IN_EVERY_WORLD(SaveAndRestoreACloth, WithAllThatABodyMayHave) {
   for (const int saveAt : {0, 1, 20}) {
     state_scene::FurnishedScene early(GetParam());
     early.step(saveAt);
@@ -104,8 +102,6 @@ TEST_P(SaveAndRestoreACloth, WithAllThatABodyMayHave) {
     EXPECT_TRUE(sameBits(late.look(), early.look())) << "saved after step " << saveAt;
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(SaveAndRestoreACloth);
 
 // Bullet turns its trees of boxes about by their nodes' addresses, so that two worlds of the same numbers find contacts
 // in different orders sooner or later: the whole state says so before a position does.

@@ -38,9 +38,7 @@ void lengthenAlongX(btSoftBody& body) {
   }
 }
 
-using ShapeChanged = InEveryWorld;
-
-TEST_P(ShapeChanged, WhileItRan) {
+TEST_IN_EVERY_WORLD(ShapeChanged, WhileItRan) {
   for (const Story story : {Story::hanging, Story::onRigid}) {
     SCOPED_TRACE(story);
     StateScene early({GetParam(), story});
@@ -113,11 +111,11 @@ void expectTheSame(WorldKind kind, Towel::Add add) {
   }
 }
 
-TEST_P(ShapeChanged, BeforeDryingWasAdded) {
+TEST_IN_EVERY_WORLD(ShapeChanged, BeforeDryingWasAdded) {
   expectTheSame(GetParam(), [](WetCloth& cloth) { cloth.add<wetcloth::Drying>(); });
 }
 
-TEST_P(ShapeChanged, BeforeDiffusionWasAdded) {
+TEST_IN_EVERY_WORLD(ShapeChanged, BeforeDiffusionWasAdded) {
   for (const Towel::Add add :
        {Towel::Add([](WetCloth& cloth) { cloth.add<wetcloth::Diffusion>(); }), Towel::Add([](WetCloth& cloth) {
           wetcloth::Diffusion::Parameters wicking;
@@ -134,18 +132,18 @@ TEST_P(ShapeChanged, BeforeDiffusionWasAdded) {
   }
 }
 
-TEST_P(ShapeChanged, BeforeSeepageWasAdded) {
+TEST_IN_EVERY_WORLD(ShapeChanged, BeforeSeepageWasAdded) {
   expectTheSame(GetParam(), [](WetCloth& cloth) { cloth.add<wetcloth::Seepage>(); });
 }
 
-TEST_P(ShapeChanged, BeforeDrippingWasAdded) {
+TEST_IN_EVERY_WORLD(ShapeChanged, BeforeDrippingWasAdded) {
   expectTheSame(GetParam(), [](WetCloth& cloth) {
     cloth.setSaturation(1);
     cloth.add<wetcloth::Dripping>();
   });
 }
 
-TEST_P(ShapeChanged, BeforeWindWasAdded) {
+TEST_IN_EVERY_WORLD(ShapeChanged, BeforeWindWasAdded) {
   expectTheSame(GetParam(), [](WetCloth& cloth) {
     wetcloth::Wind::Parameters air;
     air.velocity = btVector3(1, 0, 4);
@@ -154,7 +152,7 @@ TEST_P(ShapeChanged, BeforeWindWasAdded) {
   });
 }
 
-TEST_P(ShapeChanged, BeforeWaterDragWasAdded) {
+TEST_IN_EVERY_WORLD(ShapeChanged, BeforeWaterDragWasAdded) {
   expectTheSame(GetParam(), [](WetCloth& cloth) {
     wetcloth::WaterDrag::Parameters pool;
     pool.surface = wetcloth::WaterSurface();
@@ -163,15 +161,15 @@ TEST_P(ShapeChanged, BeforeWaterDragWasAdded) {
   });
 }
 
-TEST_P(ShapeChanged, BeforeRainWasAdded) {
+TEST_IN_EVERY_WORLD(ShapeChanged, BeforeRainWasAdded) {
   expectTheSame(GetParam(), [](WetCloth& cloth) { cloth.add<wetcloth::Rain>(); });
 }
 
-TEST_P(ShapeChanged, BeforeSplashWasAdded) {
+TEST_IN_EVERY_WORLD(ShapeChanged, BeforeSplashWasAdded) {
   expectTheSame(GetParam(), [](WetCloth& cloth) { cloth.add<wetcloth::Splash>(); });
 }
 
-TEST_P(ShapeChanged, BeforeImmersionWasAdded) {
+TEST_IN_EVERY_WORLD(ShapeChanged, BeforeImmersionWasAdded) {
   expectTheSame(GetParam(), [](WetCloth& cloth) {
     wetcloth::Immersion::Parameters pool;
     pool.surface = wetcloth::WaterSurface();
@@ -180,26 +178,24 @@ TEST_P(ShapeChanged, BeforeImmersionWasAdded) {
   });
 }
 
-TEST_P(ShapeChanged, BeforeSwellingWasAdded) {
+TEST_IN_EVERY_WORLD(ShapeChanged, BeforeSwellingWasAdded) {
   expectTheSame(GetParam(), [](WetCloth& cloth) { cloth.add<wetcloth::Swelling>(); });
 }
 
-TEST_P(ShapeChanged, BeforeStiffnessWasAdded) {
+TEST_IN_EVERY_WORLD(ShapeChanged, BeforeStiffnessWasAdded) {
   expectTheSame(GetParam(), [](WetCloth& cloth) {
     if (cloth.isInDeformableWorld()) cloth.add<wetcloth::HookeSprings>(springsOf(50, 2));
     cloth.add<wetcloth::WetStiffness>();
   });
 }
 
-TEST_P(ShapeChanged, BeforeSpringsWereAdded) {
+TEST_IN_EVERY_WORLD(ShapeChanged, BeforeSpringsWereAdded) {
   expectTheSame(GetParam(), [](WetCloth& cloth) { cloth.add<wetcloth::HookeSprings>(springsOf(50, 2)); });
 }
 
-TEST_P(ShapeChanged, BeforeTheAuditWasAdded) {
+TEST_IN_EVERY_WORLD(ShapeChanged, BeforeTheAuditWasAdded) {
   expectTheSame(GetParam(), [](WetCloth& cloth) { cloth.add<wetcloth::CollisionAudit>(); });
 }
-
-WETCLOTH_IN_EVERY_WORLD(ShapeChanged);
 
 }  // namespace
 }  // namespace wetcloth_test::shape_changed_test

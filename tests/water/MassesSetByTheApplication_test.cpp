@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kRounding = kIsDouble ? 1e-13 : 2e-6;
 
-class MassesSet : public InEveryWorld {
+class MassesSet {
  protected:
   BodyScene scene{GetParam(), hangingPatch(9)};
   wetcloth::WetClothWorld wet{scene.world()};
@@ -41,7 +41,7 @@ class MassesSet : public InEveryWorld {
 };
 
 // An engine's wrapper adds us in its own addSoftBody(), and the game sets the mass after that.
-TEST_P(MassesSet, BeforeTheFirstStepAreTheDryMasses) {
+TEST_F_IN_EVERY_WORLD(MassesSet, BeforeTheFirstStepAreTheDryMasses) {
   const double ratio = 1e-5 / freeMass();
   const double pinnedBefore = cloth.dryMass(80);
   soak();
@@ -55,7 +55,7 @@ TEST_P(MassesSet, BeforeTheFirstStepAreTheDryMasses) {
 }
 
 // A cloth that was added with the mass that it has, is the measure.
-TEST_P(MassesSet, BeforeTheFirstStepAreAsIfSetBeforeTheCloth) {
+TEST_F_IN_EVERY_WORLD(MassesSet, BeforeTheFirstStepAreAsIfSetBeforeTheCloth) {
   BodyScene other(GetParam(), hangingPatch(9));
   other.body().setTotalMass(btScalar(0.02));
   wetcloth::WetClothWorld otherWet(other.world());
@@ -71,7 +71,7 @@ TEST_P(MassesSet, BeforeTheFirstStepAreAsIfSetBeforeTheCloth) {
   }
 }
 
-TEST_P(MassesSet, OnAWetClothLeaveItsWaterAndItsLedger) {
+TEST_F_IN_EVERY_WORLD(MassesSet, OnAWetClothLeaveItsWaterAndItsLedger) {
   soak();
   scene.bullet().step(60);
   const double held = cloth.ledger().held;
@@ -88,7 +88,7 @@ TEST_P(MassesSet, OnAWetClothLeaveItsWaterAndItsLedger) {
 }
 
 // Water that is there before the first step stays, on top of the mass that is set.
-TEST_P(MassesSet, BetweenWettingAndTheFirstStepWithoutAnyEffect) {
+TEST_F_IN_EVERY_WORLD(MassesSet, BetweenWettingAndTheFirstStepWithoutAnyEffect) {
   cloth.setSaturation(1);
   const double held = cloth.held(3);
   for (int i = 0; i < 72; ++i) scene.body().setMass(i, btScalar(0.01));
@@ -99,7 +99,7 @@ TEST_P(MassesSet, BetweenWettingAndTheFirstStepWithoutAnyEffect) {
 }
 
 // Nothing tells of these but the masses themselves: all are found within 32 steps, or when one of them is.
-TEST_P(MassesSet, ByHandAreFoundWithin32Steps) {
+TEST_F_IN_EVERY_WORLD(MassesSet, ByHandAreFoundWithin32Steps) {
   cloth.add<wetcloth::Wind>();
   scene.bullet().step(3);
   for (const int node : {0, 37, 71}) {
@@ -110,7 +110,7 @@ TEST_P(MassesSet, ByHandAreFoundWithin32Steps) {
   }
 }
 
-TEST_P(MassesSet, ByHandAtAllNodesAreFoundBeforeAnyWaterMoves) {
+TEST_F_IN_EVERY_WORLD(MassesSet, ByHandAtAllNodesAreFoundBeforeAnyWaterMoves) {
   soak();
   scene.bullet().step(3);
   for (int i = 0; i < 72; ++i) scene.body().m_nodes[i].m_im *= 1000;
@@ -124,7 +124,7 @@ TEST_P(MassesSet, ByHandAtAllNodesAreFoundBeforeAnyWaterMoves) {
   EXPECT_LT(cloth.dryMass(80), pinned / 100);
 }
 
-TEST_P(MassesSet, BeforeAnEffectIsAddedAreWhatItSees) {
+TEST_F_IN_EVERY_WORLD(MassesSet, BeforeAnEffectIsAddedAreWhatItSees) {
   scene.bullet().step(3);
   for (int i = 0; i < 72; ++i) scene.body().m_nodes[i].m_im /= 2;
   soak();
@@ -132,7 +132,7 @@ TEST_P(MassesSet, BeforeAnEffectIsAddedAreWhatItSees) {
 }
 
 // A mass that is none changes nothing that we know, and heals with the next commit.
-TEST_P(MassesSet, ThatAreNoMassesAreNotTakenOver) {
+TEST_F_IN_EVERY_WORLD(MassesSet, ThatAreNoMassesAreNotTakenOver) {
   soak();
   scene.bullet().step(3);
   const double dry = cloth.dryMass(5);
@@ -145,8 +145,6 @@ TEST_P(MassesSet, ThatAreNoMassesAreNotTakenOver) {
     EXPECT_TRUE(std::isfinite(cloth.dryMass(80)) && cloth.dryMass(80) > 0) << bad;
   }
 }
-
-WETCLOTH_IN_EVERY_WORLD(MassesSet);
 
 }  // namespace
 }  // namespace wetcloth_test::masses_set_by_the_application_test

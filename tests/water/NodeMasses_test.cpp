@@ -18,9 +18,7 @@ constexpr double kRounding = kIsDouble ? 1e-14 : 1e-6;
 
 double massOf(btSoftBody& body, int node) { return 1 / double(body.m_nodes[node].m_im); }
 
-using NodeMasses = InEveryWorld;
-
-TEST_P(NodeMasses, AreDryMassPlusWater) {
+TEST_IN_EVERY_WORLD(NodeMasses, AreDryMassPlusWater) {
   BodyScene scene(GetParam(), hangingPatch(5));
   std::vector<double> dry;
   for (int i = 0; i < 25; ++i) dry.push_back(double(scene.body().getMass(i)));
@@ -35,7 +33,7 @@ TEST_P(NodeMasses, AreDryMassPlusWater) {
   EXPECT_NEAR(cloth.saturation(4), 1 - std::exp(-0.25 / 0.5), 1e-2) << "x = 1";
 }
 
-TEST_P(NodeMasses, ANodePinnedWhileWetStaysPinnedAndKeepsItsWater) {
+TEST_IN_EVERY_WORLD(NodeMasses, ANodePinnedWhileWetStaysPinnedAndKeepsItsWater) {
   BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(2, 0.5));
@@ -56,7 +54,7 @@ TEST_P(NodeMasses, ANodePinnedWhileWetStaysPinnedAndKeepsItsWater) {
   EXPECT_EQ(scene.body().m_nodes[5].m_im, 0);
 }
 
-TEST_P(NodeMasses, AMassSetWhileWetIsTheNewDryMass) {
+TEST_IN_EVERY_WORLD(NodeMasses, AMassSetWhileWetIsTheNewDryMass) {
   BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(2, 0.5));
@@ -76,7 +74,7 @@ TEST_P(NodeMasses, AMassSetWhileWetIsTheNewDryMass) {
   EXPECT_NEAR(massOf(scene.body(), 5), 0.25 + cloth.held(5), kRounding);
 }
 
-TEST_P(NodeMasses, AReleasedNodeTakesTheMassThatItWasGiven) {
+TEST_IN_EVERY_WORLD(NodeMasses, AReleasedNodeTakesTheMassThatItWasGiven) {
   BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(2, 0.5));
@@ -90,8 +88,6 @@ TEST_P(NodeMasses, AReleasedNodeTakesTheMassThatItWasGiven) {
   EXPECT_NEAR(massOf(scene.body(), pinned), 0.02 + cloth.held(pinned), kRounding);
   EXPECT_TRUE(isFinite(scene.body()));
 }
-
-WETCLOTH_IN_EVERY_WORLD(NodeMasses);
 
 }  // namespace
 }  // namespace wetcloth_test::node_masses_test

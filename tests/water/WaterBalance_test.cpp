@@ -42,9 +42,7 @@ void swap(wetcloth::WetCloth& cloth, const wetcloth::Step&) {
   }
 }
 
-using WaterBalance = InEveryWorld;
-
-TEST_P(WaterBalance, HoldsInEveryStep) {
+TEST_IN_EVERY_WORLD(WaterBalance, HoldsInEveryStep) {
   BodyScene scene(GetParam(), hangingPatch(5));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(2, 0.5)));
@@ -61,7 +59,7 @@ TEST_P(WaterBalance, HoldsInEveryStep) {
   EXPECT_GT(cloth.ledger().absorbed, 0);
 }
 
-TEST_P(WaterBalance, IsClosedAfterAHundredThousandSteps) {
+TEST_IN_EVERY_WORLD(WaterBalance, IsClosedAfterAHundredThousandSteps) {
   BodyScene scene(GetParam(), squarePatch(2), btVector3(0, 0, 0));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(2, 0.5)));
@@ -86,7 +84,7 @@ TEST(WaterBalanceWithBulletsStep, IsClosedAfterAHundredThousandSteps) {
   expectClosed(cloth);
 }
 
-TEST_P(WaterBalance, HoldsWhenWaterIsSetByHand) {
+TEST_IN_EVERY_WORLD(WaterBalance, HoldsWhenWaterIsSetByHand) {
   BodyScene scene(GetParam(), hangingPatch(4));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body(), fabricOf(2, 0.5)));
@@ -103,7 +101,7 @@ TEST_P(WaterBalance, HoldsWhenWaterIsSetByHand) {
 }
 
 // Nobody can take more than there is, and only what left is booked.
-TEST_P(WaterBalance, HoldsWhenAnEffectTakesTooMuch) {
+TEST_IN_EVERY_WORLD(WaterBalance, HoldsWhenAnEffectTakesTooMuch) {
   BodyScene scene(GetParam(), squarePatch(3));
   wetcloth::WetClothWorld wet(scene.world());
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
@@ -118,8 +116,6 @@ TEST_P(WaterBalance, HoldsWhenAnEffectTakesTooMuch) {
   expectClosed(cloth);
   EXPECT_TRUE(isFinite(scene.body()));
 }
-
-WETCLOTH_IN_EVERY_WORLD(WaterBalance);
 
 }  // namespace
 }  // namespace wetcloth_test::water_balance_test

@@ -93,9 +93,7 @@ wetcloth::Diffusion::Parameters fast() {
   return parameters;
 }
 
-using WaterMomentumAcrossEffects = InEveryWorld;
-
-TEST_P(WaterMomentumAcrossEffects, WhatArrivesAndWicksOnAtOnce) {
+TEST_IN_EVERY_WORLD(WaterMomentumAcrossEffects, WhatArrivesAndWicksOnAtOnce) {
   OneCloth one(GetParam());
   one.pour();
   one.cloth.add<wetcloth::Diffusion>(fast());
@@ -106,7 +104,7 @@ TEST_P(WaterMomentumAcrossEffects, WhatArrivesAndWicksOnAtOnce) {
   EXPECT_LE(largestSpeed(one.cloth.body()), 9.5) << "no faster than what struck it";
 }
 
-TEST_P(WaterMomentumAcrossEffects, RunOffThatMeetsWaterOnTheMove) {
+TEST_IN_EVERY_WORLD(WaterMomentumAcrossEffects, RunOffThatMeetsWaterOnTheMove) {
   OneCloth one(GetParam());
   one.wetUnevenly();
   const double off = 20 * one.cloth.dryMass(3);
@@ -126,7 +124,7 @@ TEST_P(WaterMomentumAcrossEffects, RunOffThatMeetsWaterOnTheMove) {
   expectNear(plus(momentumOf(one.cloth), times(atImpact, off)), before, one.scale());
 }
 
-TEST_P(WaterMomentumAcrossEffects, DampedLinksAmongWaterOnTheMove) {
+TEST_IN_EVERY_WORLD(WaterMomentumAcrossEffects, DampedLinksAmongWaterOnTheMove) {
   OneCloth one(GetParam());
   one.wetUnevenly();
   one.pour();
@@ -138,7 +136,7 @@ TEST_P(WaterMomentumAcrossEffects, DampedLinksAmongWaterOnTheMove) {
 }
 
 // A drop takes the velocity that its node has got by what fell on it in the same step.
-TEST_P(WaterMomentumAcrossEffects, DropsTakeTheVelocityOfTheNodeThatTheyLeave) {
+TEST_IN_EVERY_WORLD(WaterMomentumAcrossEffects, DropsTakeTheVelocityOfTheNodeThatTheyLeave) {
   OneCloth one(GetParam());
   one.pour();
   Vector dripped = {0, 0, 0};
@@ -152,8 +150,6 @@ TEST_P(WaterMomentumAcrossEffects, DropsTakeTheVelocityOfTheNodeThatTheyLeave) {
   ASSERT_GT(one.cloth.ledger().dripped, 0);
   expectNear(plus(momentumOf(one.cloth), dripped), plus(before, one.arrived), one.scale());
 }
-
-WETCLOTH_IN_EVERY_WORLD(WaterMomentumAcrossEffects);
 
 /// Two cloths over each other, whose contacts are written by hand: a ring, in which nodes give and take in one step.
 class TwoCloths {
@@ -216,9 +212,7 @@ wetcloth::ContactWetting::Parameters betweenCloths(double rate) {
   return parameters;
 }
 
-using WaterMomentumBetweenCloths = InEveryWorld;
-
-TEST_P(WaterMomentumBetweenCloths, GivenAndTakenInTheStepInWhichItArrives) {
+TEST_IN_EVERY_WORLD(WaterMomentumBetweenCloths, GivenAndTakenInTheStepInWhichItArrives) {
   for (const bool hasFirst : {true, false}) {
     TwoCloths two(GetParam());
     Vector arrived = {0, 0, 0};
@@ -243,7 +237,7 @@ TEST_P(WaterMomentumBetweenCloths, GivenAndTakenInTheStepInWhichItArrives) {
 }
 
 // All that moves water or shares momentum inside of the cloths and between them; nothing leaves them.
-TEST_P(WaterMomentumBetweenCloths, StepsOfAnyLength) {
+TEST_IN_EVERY_WORLD(WaterMomentumBetweenCloths, StepsOfAnyLength) {
   TwoCloths two(GetParam());
   const btVector3 rain(1, -9, 2);
   for (wetcloth::WetCloth* cloth : {two.first, two.second}) {
@@ -270,7 +264,7 @@ TEST_P(WaterMomentumBetweenCloths, StepsOfAnyLength) {
 }
 
 // What came after a cloth's turn is committed in the same step, so that nothing is left to be lost when it is cut.
-TEST_P(WaterMomentumBetweenCloths, ACutAfterTheStepFindsNothingPending) {
+TEST_IN_EVERY_WORLD(WaterMomentumBetweenCloths, ACutAfterTheStepFindsNothingPending) {
   TwoCloths two(GetParam());
   two.wet().setLog({});
   two.second->setSaturation(0.5);
@@ -291,8 +285,6 @@ TEST_P(WaterMomentumBetweenCloths, ACutAfterTheStepFindsNothingPending) {
   EXPECT_NEAR(two.first->totalMass(), mass + 2, 1e-5 * mass);
   EXPECT_NEAR(two.first->ledger().held, held, 1e-12 * held);
 }
-
-WETCLOTH_IN_EVERY_WORLD(WaterMomentumBetweenCloths);
 
 }  // namespace
 }  // namespace wetcloth_test::water_momentum_across_effects_test

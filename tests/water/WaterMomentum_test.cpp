@@ -57,10 +57,8 @@ wetcloth::Absorption::Parameters rain(const wetcloth::WetCloth& cloth, const btV
   return parameters;
 }
 
-using WaterMomentum = InEveryWorld;
-
 // Only our own part of the step, so that nothing else changes velocities.
-TEST_P(WaterMomentum, IsConservedWhenWaterLands) {
+TEST_IN_EVERY_WORLD(WaterMomentum, IsConservedWhenWaterLands) {
   wetcloth::ClothPatch patch = squarePatch(5);
   patch.pinnedNodes = {0, 6, 13};
   const btVector3 waterVelocity(2, -9, btScalar(0.5));
@@ -82,7 +80,7 @@ TEST_P(WaterMomentum, IsConservedWhenWaterLands) {
 }
 
 // Each node by itself, in one step.
-TEST_P(WaterMomentum, GivesEachNodeTheVelocityOfAnInelasticImpact) {
+TEST_IN_EVERY_WORLD(WaterMomentum, GivesEachNodeTheVelocityOfAnInelasticImpact) {
   const btVector3 waterVelocity(2, -9, btScalar(0.5));
   BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
@@ -105,7 +103,7 @@ TEST_P(WaterMomentum, GivesEachNodeTheVelocityOfAnInelasticImpact) {
   }
 }
 
-TEST_P(WaterMomentum, PinnedNodesHoldWaterAndStayPinned) {
+TEST_IN_EVERY_WORLD(WaterMomentum, PinnedNodesHoldWaterAndStayPinned) {
   wetcloth::ClothPatch patch = squarePatch(5);
   patch.pinnedNodes = {0, 6, 13};
   BodyScene scene(GetParam(), patch);
@@ -127,7 +125,7 @@ TEST_P(WaterMomentum, PinnedNodesHoldWaterAndStayPinned) {
 }
 
 // Water that leaves has the node's velocity: the node's own does not change.
-TEST_P(WaterMomentum, LeavingWaterChangesNoVelocity) {
+TEST_IN_EVERY_WORLD(WaterMomentum, LeavingWaterChangesNoVelocity) {
   BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
@@ -149,7 +147,7 @@ TEST_P(WaterMomentum, LeavingWaterChangesNoVelocity) {
 }
 
 // The paper's own way makes momentum from nothing: velocities stay while masses grow.
-TEST_P(WaterMomentum, ThePapersWayKeepsVelocities) {
+TEST_IN_EVERY_WORLD(WaterMomentum, ThePapersWayKeepsVelocities) {
   BodyScene scene(GetParam(), squarePatch(4));
   wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
   wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
@@ -160,8 +158,6 @@ TEST_P(WaterMomentum, ThePapersWayKeepsVelocities) {
   EXPECT_GT(cloth.meanSaturation(), 0.05);
   EXPECT_TRUE(sameBits(stateOf(scene.body()), before));
 }
-
-WETCLOTH_IN_EVERY_WORLD(WaterMomentum);
 
 }  // namespace
 }  // namespace wetcloth_test::water_momentum_test

@@ -73,10 +73,7 @@ TEST(WaterPace, IsNoSlowerThanItsLongestStep) {
   EXPECT_EQ(WaterPace::exact().substepsOf(1.0 / 240), 1);
 }
 
-using WaterPaceInWorld = InEveryWorld;
-WETCLOTH_IN_EVERY_WORLD(WaterPaceInWorld);
-
-TEST_P(WaterPaceInWorld, AfterAllSubstepsOfATurnTheLawHolds) {
+TEST_IN_EVERY_WORLD(WaterPaceInWorld, AfterAllSubstepsOfATurnTheLawHolds) {
   ClothScene scene(GetParam(), btVector3(0, 0, 0), squarePatch(5));
   scene.cloth().setPace(WaterPace{});
   scene.cloth().add<Absorption>();
@@ -87,7 +84,7 @@ TEST_P(WaterPaceInWorld, AfterAllSubstepsOfATurnTheLawHolds) {
   EXPECT_NEAR(scene.cloth().saturation(0), expected, 1e-14);
 }
 
-TEST_P(WaterPaceInWorld, MassesAreWithinTheToleranceAndTheLedgerIsClosed) {
+TEST_IN_EVERY_WORLD(WaterPaceInWorld, MassesAreWithinTheToleranceAndTheLedgerIsClosed) {
   ClothScene scene(GetParam(), btVector3(0, -10, 0), squarePatch(5));
   WaterPace pace = WaterPace::exact();
   pace.massTolerance = 0.01;
@@ -109,7 +106,7 @@ TEST_P(WaterPaceInWorld, MassesAreWithinTheToleranceAndTheLedgerIsClosed) {
 }
 
 // Without gravity all momentum is what arrived, whenever it is written.
-TEST_P(WaterPaceInWorld, MomentumArrivesInFull) {
+TEST_IN_EVERY_WORLD(WaterPaceInWorld, MomentumArrivesInFull) {
   ClothScene scene(GetParam(), btVector3(0, 0, 0), squarePatch(5));
   WaterPace pace;
   pace.massTolerance = 0.05;
@@ -136,7 +133,7 @@ TEST_P(WaterPaceInWorld, MomentumArrivesInFull) {
   }
 }
 
-TEST_P(WaterPaceInWorld, ASavedStateGoesOnInTheMiddleOfATurn) {
+TEST_IN_EVERY_WORLD(WaterPaceInWorld, ASavedStateGoesOnInTheMiddleOfATurn) {
   const auto start = [&](ClothScene& scene) {
     scene.cloth().setPace(WaterPace{});
     scene.cloth().add<Absorption>();

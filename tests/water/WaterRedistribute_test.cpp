@@ -84,9 +84,7 @@ std::vector<double> turned(const wetcloth::Water& water) {
   return held;
 }
 
-using WaterMove = InEveryWorld;
-
-TEST_P(WaterMove, TakesTheVelocityOfTheNodeThatItLeaves) {
+TEST_IN_EVERY_WORLD(WaterMove, TakesTheVelocityOfTheNodeThatItLeaves) {
   Moving moving(GetParam());
   const btVector3 from = moving.scene.body().m_nodes[5].m_v;
   const btVector3 to = moving.scene.body().m_nodes[6].m_v;
@@ -101,7 +99,7 @@ TEST_P(WaterMove, TakesTheVelocityOfTheNodeThatItLeaves) {
   }
 }
 
-TEST_P(WaterMove, ConservesMassAndMomentum) {
+TEST_IN_EVERY_WORLD(WaterMove, ConservesMassAndMomentum) {
   Moving moving(GetParam());
   const Vector before = moving.momentum();
   const double held = moving.heldSum();
@@ -113,7 +111,7 @@ TEST_P(WaterMove, ConservesMassAndMomentum) {
   EXPECT_NEAR(moving.heldSum(), held, 1e-15);
 }
 
-TEST_P(WaterMove, ConservesMomentumWithArrivalsAndRunOffInTheSameStep) {
+TEST_IN_EVERY_WORLD(WaterMove, ConservesMomentumWithArrivalsAndRunOffInTheSameStep) {
   Moving moving(GetParam());
   const Vector before = moving.momentum();
   const double dry = moving.cloth.dryMass(5);
@@ -127,7 +125,7 @@ TEST_P(WaterMove, ConservesMomentumWithArrivalsAndRunOffInTheSameStep) {
   moving.expectClosed();
 }
 
-TEST_P(WaterMove, PassesOnWhatArrivedWithItsMomentum) {
+TEST_IN_EVERY_WORLD(WaterMove, PassesOnWhatArrivedWithItsMomentum) {
   Moving moving(GetParam());
   const Vector before = moving.momentum();
   const double dry = moving.cloth.dryMass(5);
@@ -151,7 +149,7 @@ TEST_P(WaterMove, PassesOnWhatArrivedWithItsMomentum) {
   moving.expectClosed();
 }
 
-TEST_P(WaterMove, MovesNoMoreThanThereIsAndNothingToItself) {
+TEST_IN_EVERY_WORLD(WaterMove, MovesNoMoreThanThereIsAndNothingToItself) {
   Moving moving(GetParam());
   const double from = moving.cloth.held(5);
   const double to = moving.cloth.held(6);
@@ -165,11 +163,7 @@ TEST_P(WaterMove, MovesNoMoreThanThereIsAndNothingToItself) {
   moving.expectClosed();
 }
 
-WETCLOTH_IN_EVERY_WORLD(WaterMove);
-
-using WaterRedistribute = InEveryWorld;
-
-TEST_P(WaterRedistribute, ConservesMass) {
+TEST_IN_EVERY_WORLD(WaterRedistribute, ConservesMass) {
   Moving moving(GetParam());
   const double held = moving.heldSum();
   const double moved = moving.cloth.water().moved();
@@ -186,7 +180,7 @@ TEST_P(WaterRedistribute, ConservesMass) {
   EXPECT_NEAR(moving.cloth.water().moved() - moved, gained, 1e-15) << "what came is what went, once";
 }
 
-TEST_P(WaterRedistribute, WritesTheMassesAndLeavesTheVelocitiesToTheCaller) {
+TEST_IN_EVERY_WORLD(WaterRedistribute, WritesTheMassesAndLeavesTheVelocitiesToTheCaller) {
   Moving moving(GetParam());
   const std::vector<btScalar> before = stateOf(moving.scene.body());
   moving.step([](wetcloth::Water& water) { water.redistribute(turned(water)); });
@@ -198,7 +192,7 @@ TEST_P(WaterRedistribute, WritesTheMassesAndLeavesTheVelocitiesToTheCaller) {
 }
 
 // The caller's part: each node that gained takes in the water's velocity by a push.
-TEST_P(WaterRedistribute, WithTheCallersPushConservesMomentum) {
+TEST_IN_EVERY_WORLD(WaterRedistribute, WithTheCallersPushConservesMomentum) {
   Moving moving(GetParam());
   const Vector before = moving.momentum();
   moving.step([&](wetcloth::Water& water) {
@@ -218,7 +212,7 @@ TEST_P(WaterRedistribute, WithTheCallersPushConservesMomentum) {
 
 // Arrivals meet the mass that is there after the water has moved, so their own momentum comes on top of the rest,
 // whichever came first.
-TEST_P(WaterRedistribute, ConservesMomentumWithArrivalsAndRunOffInTheSameStep) {
+TEST_IN_EVERY_WORLD(WaterRedistribute, ConservesMomentumWithArrivalsAndRunOffInTheSameStep) {
   for (const bool arrivesFirst : {true, false}) {
     Moving moving(GetParam());
     const double in = 0.5 * moving.cloth.dryMass(5);
@@ -257,7 +251,7 @@ TEST_P(WaterRedistribute, ConservesMomentumWithArrivalsAndRunOffInTheSameStep) {
 }
 
 // A caller's sum is right to rounding only; the difference is booked, so that the ledger stays closed for good.
-TEST_P(WaterRedistribute, BooksTheRoundingOfTheSum) {
+TEST_IN_EVERY_WORLD(WaterRedistribute, BooksTheRoundingOfTheSum) {
   Moving moving(GetParam());
   const double initial = moving.cloth.ledger().initial;
   moving.step([](wetcloth::Water& water) {
@@ -269,7 +263,7 @@ TEST_P(WaterRedistribute, BooksTheRoundingOfTheSum) {
   moving.expectClosed();
 }
 
-TEST_P(WaterRedistribute, StaysFiniteWhenMoreMovesOnThanTheNodeWasHeavyBefore) {
+TEST_IN_EVERY_WORLD(WaterRedistribute, StaysFiniteWhenMoreMovesOnThanTheNodeWasHeavyBefore) {
   Moving moving(GetParam());
   moving.step([&](wetcloth::Water& water) {
     water.absorb(5, 100 * water.dryMass(5), 0, -9, 0);
@@ -283,8 +277,6 @@ TEST_P(WaterRedistribute, StaysFiniteWhenMoreMovesOnThanTheNodeWasHeavyBefore) {
   EXPECT_LE(largestSpeed(moving.scene.body()), 9.5) << "no faster than what struck it";
   moving.expectClosed();
 }
-
-WETCLOTH_IN_EVERY_WORLD(WaterRedistribute);
 
 }  // namespace
 }  // namespace wetcloth_test::water_redistribute_test

@@ -60,9 +60,7 @@ struct Struck {
   wetcloth::WetCloth& cloth;
 };
 
-using WaterRunOff = InEveryWorld;
-
-TEST_P(WaterRunOff, LeavesTheMomentumOfAnInelasticImpact) {
+TEST_IN_EVERY_WORLD(WaterRunOff, LeavesTheMomentumOfAnInelasticImpact) {
   Struck struck(GetParam());
   struck.cloth.setSaturation(1);
   for (const double share : {1e-6, 0.1, 1.0, 100.0}) {  // of the node's mass
@@ -80,7 +78,7 @@ TEST_P(WaterRunOff, LeavesTheMomentumOfAnInelasticImpact) {
 }
 
 // The water goes away with the node's new velocity, so cloth and water together keep their momentum.
-TEST_P(WaterRunOff, KeepsTheMomentumOfClothAndWaterTogether) {
+TEST_IN_EVERY_WORLD(WaterRunOff, KeepsTheMomentumOfClothAndWaterTogether) {
   Struck struck(GetParam());
   const btVector3 before = struck.velocity(3);
   const double mass = struck.mass(3);
@@ -92,7 +90,7 @@ TEST_P(WaterRunOff, KeepsTheMomentumOfClothAndWaterTogether) {
   }
 }
 
-TEST_P(WaterRunOff, MeetsTheNodeTogetherWithWhatGoesInAndWhatLeaves) {
+TEST_IN_EVERY_WORLD(WaterRunOff, MeetsTheNodeTogetherWithWhatGoesInAndWhatLeaves) {
   Struck struck(GetParam());
   struck.cloth.setSaturation(0.5);
   const double mass = struck.mass(5);
@@ -111,7 +109,7 @@ TEST_P(WaterRunOff, MeetsTheNodeTogetherWithWhatGoesInAndWhatLeaves) {
   }
 }
 
-TEST_P(WaterRunOff, StaysOutOfTheBalanceAndIsCounted) {
+TEST_IN_EVERY_WORLD(WaterRunOff, StaysOutOfTheBalanceAndIsCounted) {
   Struck struck(GetParam());
   struck.cloth.setSaturation(0.5);
   const wetcloth::Ledger before = struck.cloth.ledger();
@@ -137,7 +135,7 @@ TEST_P(WaterRunOff, StaysOutOfTheBalanceAndIsCounted) {
   EXPECT_FALSE(struck.cloth.water().movedSinceCommit());
 }
 
-TEST_P(WaterRunOff, IsForgottenAfterItsStep) {
+TEST_IN_EVERY_WORLD(WaterRunOff, IsForgottenAfterItsStep) {
   Struck struck(GetParam());
   struck.step([](wetcloth::Water& water) { strike(water, 5, 0.25); });
   const btVector3 after = struck.velocity(5);
@@ -147,7 +145,7 @@ TEST_P(WaterRunOff, IsForgottenAfterItsStep) {
   EXPECT_EQ(struck.cloth.ledger().runOff, 0.25);
 }
 
-TEST_P(WaterRunOff, OfNothingIsNothing) {
+TEST_IN_EVERY_WORLD(WaterRunOff, OfNothingIsNothing) {
   Struck struck(GetParam());
   const btVector3 before = struck.velocity(5);
   struck.step([](wetcloth::Water& water) {
@@ -158,7 +156,7 @@ TEST_P(WaterRunOff, OfNothingIsNothing) {
   EXPECT_EQ(struck.cloth.ledger().runOff, 0);
 }
 
-TEST_P(WaterRunOff, DoesNotMoveAPinnedNode) {
+TEST_IN_EVERY_WORLD(WaterRunOff, DoesNotMoveAPinnedNode) {
   wetcloth::ClothPatch patch = squarePatch(4);
   patch.pinnedNodes = {5};
   Struck struck(GetParam(), patch);
@@ -169,7 +167,7 @@ TEST_P(WaterRunOff, DoesNotMoveAPinnedNode) {
 }
 
 // The deformable world's implicit solve starts from m_vn.
-TEST_P(WaterRunOff, ReachesBulletsNextStep) {
+TEST_IN_EVERY_WORLD(WaterRunOff, ReachesBulletsNextStep) {
   BodyScene scene(GetParam(), squarePatch(4), btVector3(0, 0, 0));
   scene.body().setActivationState(DISABLE_DEACTIVATION);
   wetcloth::WetClothWorld wet(scene.world());
@@ -186,8 +184,6 @@ TEST_P(WaterRunOff, ReachesBulletsNextStep) {
   // v' = (v - 0.01) / 1.01 ten times. float32 positions of 1 m over 4 ms: 1e-7 m / 4e-3 s in each step.
   EXPECT_NEAR(double(meanVelocity(scene.body()).y()), -(1 - std::pow(1.01, -10)), kIsDouble ? 1e-7 : 3e-4);
 }
-
-WETCLOTH_IN_EVERY_WORLD(WaterRunOff);
 
 }  // namespace
 }  // namespace wetcloth_test::water_run_off_test
