@@ -36,7 +36,7 @@ struct Parts {
     wet.reset();
     if (bullet && body) bullet->remove(*body);
   }
-  void deleteWorldBeforeAll() {
+  void deleteWorld() {
     bullet->deleteWorld();
     bullet.reset();
   }
@@ -98,7 +98,7 @@ TEST_P(Detach, ThenWorldAndBodiesGoInAnyOrder) {
     Parts parts(GetParam());
     parts.wet->detach();
     if (bodyFirst) parts.deleteBody();
-    parts.bullet.reset();
+    parts.deleteWorld();
     if (!bodyFirst) parts.deleteBody();
     parts.wet.reset();
   }
@@ -109,7 +109,7 @@ TEST_P(Detach, IsNotNeededWithoutCloths) {
     Parts parts(GetParam());
     parts.wet->remove(*parts.body);
     if (bodyFirst) parts.deleteBody();
-    parts.bullet.reset();
+    parts.deleteWorld();
     if (!bodyFirst) parts.deleteBody();
     parts.wet.reset();
   }
@@ -120,7 +120,7 @@ TEST_P(Detach, IsNotNeededWithoutCloths) {
 TEST_P(Detach, AfterTheWorldWasDeletedRemoveGivesTheBodyBackWhatWasIts) {
   Parts parts(GetParam());
   ASSERT_FALSE(parts.hasItsOwnMaterials());
-  parts.deleteWorldBeforeAll();
+  parts.deleteWorld();
   parts.wet->remove(*parts.body);
   EXPECT_TRUE(parts.hasItsOwnMaterials());
   EXPECT_TRUE(parts.wet->cloths().empty());
@@ -135,7 +135,7 @@ TEST_P(Detach, AfterTheWorldWasSeenToBeDeletedReadingGoesOnAndChangingThrows) {
   for (const bool byDetach : {true, false}) {
     Parts parts(GetParam());
     const double saturation = parts.cloth->saturation(3);
-    parts.deleteWorldBeforeAll();
+    parts.deleteWorld();
     EXPECT_THROW(parts.wet->add(*parts.body), std::invalid_argument);
     EXPECT_EQ(parts.cloth->saturation(3), saturation);
     EXPECT_EQ(parts.cloth->nodeCount(), 16);
