@@ -36,7 +36,7 @@ struct Parts {
     wet.reset();
     if (bullet && body) bullet->remove(*body);
   }
-  void deleteWorldBeforeAll() {
+  void deleteWorld() {
     bullet->deleteWorld();
     bullet.reset();
   }
@@ -96,7 +96,7 @@ TEST_IN_EVERY_WORLD(Detach, ThenWorldAndBodiesGoInAnyOrder) {
     Parts parts(GetParam());
     parts.wet->detach();
     if (bodyFirst) parts.deleteBody();
-    parts.bullet.reset();
+    parts.deleteWorld();
     if (!bodyFirst) parts.deleteBody();
     parts.wet.reset();
   }
@@ -107,7 +107,7 @@ TEST_IN_EVERY_WORLD(Detach, IsNotNeededWithoutCloths) {
     Parts parts(GetParam());
     parts.wet->remove(*parts.body);
     if (bodyFirst) parts.deleteBody();
-    parts.bullet.reset();
+    parts.deleteWorld();
     if (!bodyFirst) parts.deleteBody();
     parts.wet.reset();
   }
@@ -118,7 +118,7 @@ TEST_IN_EVERY_WORLD(Detach, IsNotNeededWithoutCloths) {
 TEST_IN_EVERY_WORLD(Detach, AfterTheWorldWasDeletedRemoveGivesTheBodyBackWhatWasIts) {
   Parts parts(GetParam());
   ASSERT_FALSE(parts.hasItsOwnMaterials());
-  parts.deleteWorldBeforeAll();
+  parts.deleteWorld();
   parts.wet->remove(*parts.body);
   EXPECT_TRUE(parts.hasItsOwnMaterials());
   EXPECT_TRUE(parts.wet->cloths().empty());
@@ -133,7 +133,7 @@ TEST_IN_EVERY_WORLD(Detach, AfterTheWorldWasSeenToBeDeletedReadingGoesOnAndChang
   for (const bool byDetach : {true, false}) {
     Parts parts(GetParam());
     const double saturation = parts.cloth->saturation(3);
-    parts.deleteWorldBeforeAll();
+    parts.deleteWorld();
     EXPECT_THROW(parts.wet->add(*parts.body), std::invalid_argument);
     EXPECT_EQ(parts.cloth->saturation(3), saturation);
     EXPECT_EQ(parts.cloth->nodeCount(), 16);
