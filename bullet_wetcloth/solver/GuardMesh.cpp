@@ -51,8 +51,9 @@ std::vector<std::vector<int>> facesOfCorners(const btSoftBody& body, int columns
 // Puts parts into cells, one cell after the other.
 class CellWriter {
  public:
-  CellWriter(const btSoftBody& body, int columns, GuardMesh& mesh)
+  CellWriter(const btSoftBody& body, int columns, const std::vector<btVector3>& places, GuardMesh& mesh)
       : m_body(body),
+        m_places(places),
         m_rest(body),
         m_mesh(mesh),
         m_hasVertex(toSize(body.m_nodes.size())),
@@ -105,8 +106,8 @@ class CellWriter {
     if (!isTriangle(face)) return;
     m_mesh.faces.push_back(nodesOf(m_body, face));
     if (m_mesh.isGrid()) return;
-    const btSoftBody::Face& f = m_body.m_faces[face];
-    const btScalar doubleArea = (f.m_n[1]->m_x - f.m_n[0]->m_x).cross(f.m_n[2]->m_x - f.m_n[0]->m_x).length();
+    const btScalar doubleArea =
+        (placeOf(face, 1) - placeOf(face, 0)).cross(placeOf(face, 2) - placeOf(face, 0)).length();
     const btScalar winding = static_cast<btScalar>(m_windings[toSize(face)]);
     m_mesh.windings.push_back(doubleArea > 0 ? winding / doubleArea : 0);
   }
@@ -117,13 +118,20 @@ class CellWriter {
     }
     addFace(face);
   }
+  // Of its corners, thrice.
+  btVector3 centreOf(int face) const { return placeOf(face, 0) + placeOf(face, 1) + placeOf(face, 2); }
   // Of a grid: those between this node's row and column and the next ones.
   void addEdgesFrom(int node) {
     for (const int edge : m_edgesOfNode[toSize(node)]) addEdge(edge);
   }
 
  private:
+  const btVector3& placeOf(int face, std::size_t corner) const {
+    return m_places[toSize(m_rest.triangles()[toSize(face)].nodes[corner])];
+  }
+
   const btSoftBody& m_body;
+  const std::vector<btVector3>& m_places;
   RestMesh m_rest;
   GuardMesh& m_mesh;
   std::vector<bool> m_hasVertex;
@@ -158,7 +166,7 @@ void fillGrid(const std::vector<std::vector<int>>& facesOfCorner, CellWriter& wr
 }
 
 // Halves the faces at the median of their centres along the longest side, until few are left.
-void fillTiles(const btSoftBody& body, int* first, int* last, CellWriter& writer, GuardMesh& mesh) {
+void fillTiles(int* first, int* last, CellWriter& writer, GuardMesh& mesh) {
   if (last - first <= kMostFacesInTile) {
     GuardMesh::Tile tile = {static_cast<int>(mesh.cells.size()), 0, false};
     for (const int* face = first; face != last; ++face) {
@@ -169,25 +177,21 @@ void fillTiles(const btSoftBody& body, int* first, int* last, CellWriter& writer
     mesh.tiles.push_back(tile);
     return;
   }
-  const auto centre = [&](int face) {
-    const btSoftBody::Face& f = body.m_faces[face];
-    return f.m_n[0]->m_x + f.m_n[1]->m_x + f.m_n[2]->m_x;
-  };
-  btVector3 least = centre(*first);
+  btVector3 least = writer.centreOf(*first);
   btVector3 largest = least;
   for (const int* face = first; face != last; ++face) {
-    least.setMin(centre(*face));
-    largest.setMax(centre(*face));
+    least.setMin(writer.centreOf(*face));
+    largest.setMax(writer.centreOf(*face));
   }
   const int axis = (largest - least).maxAxis();
   int* const middle = first + (last - first) / 2;
   std::nth_element(first, middle, last, [&](int a, int b) {
-    const btScalar atA = centre(a)[axis];
-    const btScalar atB = centre(b)[axis];
+    const btScalar atA = writer.centreOf(a)[axis];
+    const btScalar atB = writer.centreOf(b)[axis];
     return atA != atB ? atA < atB : a < b;
   });
-  fillTiles(body, first, middle, writer, mesh);
-  fillTiles(body, middle, last, writer, mesh);
+  fillTiles(first, middle, writer, mesh);
+  fillTiles(middle, last, writer, mesh);
 }
 
 // Calls action(node, tile) for the nodes of each tile; for some more than once.
@@ -250,7 +254,8 @@ void GuardMesh::findPatches(const std::vector<btVector3>& places) {
   }
 }
 
-GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Grid>& grid) {
+GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Grid>& grid,
+                      const std::vector<btVector3>& places) {
   GuardMesh mesh;
   const bool isFull = grid && grid->columns * grid->rows == body.m_nodes.size();
   const auto facesOfCorner = isFull ? facesOfCorners(body, grid->columns) : std::vector<std::vector<int>>();
@@ -258,18 +263,22 @@ GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Gri
     mesh.columns = grid->columns;
     mesh.rows = grid->rows;
   }
-  CellWriter writer(body, mesh.columns, mesh);
+  CellWriter writer(body, mesh.columns, places, mesh);
   if (mesh.isGrid()) {
     fillGrid(facesOfCorner, writer, mesh);
   } else if (std::vector<int> order = writer.triangles(); !order.empty()) {
-    fillTiles(body, order.data(), order.data() + order.size(), writer, mesh);
+    fillTiles(order.data(), order.data() + order.size(), writer, mesh);
   }
   writer.beginCell(0, 0);
   mesh.findTilesOfNodes(body.m_nodes.size());
-  std::vector<btVector3> places;
-  for (int k = 0; k < body.m_nodes.size(); ++k) places.push_back(body.m_nodes[k].m_x);
   mesh.findPatches(places);
   return mesh;
+}
+
+GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Grid>& grid) {
+  std::vector<btVector3> places;
+  for (int k = 0; k < body.m_nodes.size(); ++k) places.push_back(body.m_nodes[k].m_x);
+  return guardMeshOf(body, grid, places);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -74,6 +74,10 @@ struct GuardMesh {
 };
 
 /// Of this body; its slots tell whether it is a grid.
+/// @param places  of its nodes, by which a mesh that is no grid is divided [m]
+GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Grid>& grid,
+                      const std::vector<btVector3>& places);
+/// By where they are.
 GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Grid>& grid);
 
 }  // namespace WETCLOTH_PRECISION

@@ -72,6 +72,7 @@ void PackedCloth::takeMesh() {
   m_tiles = slots.tiles;
   m_grid = slots.grid;
   m_guardMesh.reset();
+  m_guardPlaces.clear();
   m_facesByNodes.reset();
   m_nodes.reset(slots);
   m_links.reset(m_body, slots);
@@ -291,9 +292,19 @@ LinkedNodes PackedCloth::linked() {
   return {{nodes.position[0], nodes.position[1], nodes.position[2]}, nodes.inverseMass};
 }
 
+// A restored one is made as the saved one was, wherever the nodes are by now: what is divided otherwise is kept apart
+// in another order.
+void PackedCloth::makeGuardMesh() {
+  const bool isRestored = !m_guardPlaces.empty();
+  for (int k = 0; k < m_body.m_nodes.size() && !isRestored; ++k) m_guardPlaces.push_back(m_body.m_nodes[k].m_x);
+  m_guardMesh = std::make_unique<GuardMesh>(guardMeshOf(m_body, m_grid, m_guardPlaces));
+  if (isRestored) m_guardMesh->edgeLength = m_guardEdge;  // links may not follow all edges
+  m_guardEdge = m_guardMesh->edgeLength;
+}
+
 ClothGuard::Cloth PackedCloth::guarded() {
   const bool isNew = !m_guardMesh;
-  if (isNew) m_guardMesh = std::make_unique<GuardMesh>(guardMeshOf(m_body, m_grid));
+  if (isNew) makeGuardMesh();
   return {m_guardMesh.get(),
           m_nodes.moving(),
           m_nodes.slots(),
@@ -339,6 +350,19 @@ void PackedCloth::transferState(StateArchive& archive) {
   archive.value(m_nextLink, m_stiffness, m_dt, m_stiffnessRevision);
   m_smallSteps.transferState(archive);
   m_pins.transferState(archive);
+  transferGuardMesh(archive);
+}
+
+void PackedCloth::transferGuardMesh(StateArchive& archive) {
+  unsigned char isMade = m_guardPlaces.empty() ? 0 : 1;
+  archive.local(isMade);
+  std::vector<btVector3> places(isMade == 0 ? 0 : toSize(m_body.m_nodes.size()));
+  if (archive.isSaving()) places = m_guardPlaces;
+  archive.array(places);
+  archive.value(m_guardEdge);
+  if (!archive.isRestoring()) return;
+  m_guardPlaces = places;
+  m_guardMesh.reset();
 }
 
 }  // namespace WETCLOTH_PRECISION

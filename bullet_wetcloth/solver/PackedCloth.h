@@ -94,6 +94,8 @@ class PackedCloth {
   LinkedNodes linked();
   void updateBounds();
   void updateFaceTree();
+  void makeGuardMesh();
+  void transferGuardMesh(StateArchive& archive);
 
   btSoftBody& m_body;
   LocalNodes m_nodes;
@@ -109,6 +111,8 @@ class PackedCloth {
   SmallStep m_step = {};  // each of this step
   int m_count = 0;
   std::unique_ptr<GuardMesh> m_guardMesh;        // while it is guarded
+  std::vector<btVector3> m_guardPlaces;          // by which it was made [m]
+  double m_guardEdge = 0;                        // its mean edge then [m]
   std::unique_ptr<FacesByNodes> m_facesByNodes;  // once its contacts are listed
   PinnedWays m_pins;
   LayerWetness m_wetness;

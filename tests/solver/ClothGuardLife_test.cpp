@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace wetcloth_test::cloth_guard_life_test {
 namespace {
@@ -102,12 +104,29 @@ TEST(ClothGuardLife, CountsFromAReset) {
       0);
 }
 
+// The same with its nodes in an order in which there are no rows.
+BodyBuilder shuffled(const BodyBuilder& builder) {
+  return [builder](btSoftBodyWorldInfo& info) {
+    const std::unique_ptr<btSoftBody> body = builder(info);
+    Triangles mesh;
+    for (int k = 0; k < body->m_nodes.size(); ++k) mesh.places.push_back(body->m_nodes[k].m_x);
+    for (int k = 0; k < body->m_faces.size(); ++k) {
+      const btSoftBody::Face& face = body->m_faces[k];
+      mesh.faces.push_back({numberOf(*body, face.m_n[0]), numberOf(*body, face.m_n[1]), numberOf(*body, face.m_n[2])});
+    }
+    std::mt19937 random(5);
+    return mesh.shuffled(random).builder()(info);
+  };
+}
+
 // A sheet that falls onto another one, in the middle of it.
 struct Saved {
-  explicit Saved(double away) {
+  explicit Saved(double away, bool isShuffled = false) {
     scene.addFloor(0, away);
-    bodies[0] = &scene.add(wavySheet(9, 0.6, btVector3(btScalar(away), btScalar(0.05), 0)));
-    bodies[1] = &scene.add(wavySheet(10, 0.6, btVector3(btScalar(away + 0.03), btScalar(0.07), btScalar(0.04))));
+    const BodyBuilder sheets[2] = {
+        wavySheet(9, 0.6, btVector3(btScalar(away), btScalar(0.05), 0)),
+        wavySheet(10, 0.6, btVector3(btScalar(away + 0.03), btScalar(0.07), btScalar(0.04)))};
+    for (int k = 0; k < 2; ++k) bodies[k] = &scene.add(isShuffled ? shuffled(sheets[k]) : sheets[k]);
     world = std::make_unique<wetcloth::WetClothWorld>(scene.scene().bullet().world());
     world->setLog({});
     for (btSoftBody* body : bodies) world->add(*body);
@@ -129,13 +148,13 @@ struct Saved {
 };
 
 TEST(ClothGuardLife, ARestoredRunGoesOnBitForBit) {
-  for (const double away : {0.0, 3000.0}) {
-    Saved first(away);
+  for (const auto& [away, isShuffled] : {std::pair(0.0, false), std::pair(3000.0, false), std::pair(0.0, true)}) {
+    Saved first(away, isShuffled);
     first.scene.step(33);
     ASSERT_GT(first.scene.totals().pairs, 0) << "they touch";
     const std::string saved = first.state();
     first.scene.step(30);
-    Saved second(away);
+    Saved second(away, isShuffled);
     std::istringstream stream(saved);
     second.world->restore(stream);
     EXPECT_EQ(second.state(), saved);
