@@ -173,11 +173,13 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
   m_crossings = crossings;
   m_kept.resize(cloths.size());
   m_first.clear();
+  m_coincident.clear();
   m_tiles.clear();
   std::size_t count = 0;
   double edge = std::numeric_limits<double>::infinity();
   for (const Cloth& cloth : cloths) {
     m_first.push_back(count);
+    m_coincident.add(toSize(cloth.nodeCount), cloth.coincident);
     m_tiles.add(*cloth.mesh, count, cloth.isStill || cloth.mesh->isOfBodies);
     count += toSize(cloth.nodeCount);
     if (cloth.mesh->edgeLength > 0) edge = std::min(edge, cloth.mesh->edgeLength);
@@ -418,6 +420,7 @@ void ClothGuard::lookAgain() {
 void ClothGuard::addPlanes() {
   if (m_exemptions) m_exemptions->takeFrom(m_candidates);
   if (m_crossings) m_crossings->takeFrom(m_candidates);
+  m_coincident.takeFrom(m_candidates);
   m_totals.candidates += static_cast<long long>(m_candidates.size());
   gather(m_candidates);
   m_totals.meeting = std::max(m_totals.meeting, m_pairs.look(m_nodes, m_candidates, m_contact));

@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Precision.h"
 #include "bullet_wetcloth/bullet/PackedNodes.h"
 #include "bullet_wetcloth/solver/ClothSolver.h"
+#include "bullet_wetcloth/solver/CoincidentExemptions.h"
 #include "bullet_wetcloth/solver/ExpectedWay.h"
 #include "bullet_wetcloth/solver/GuardExemptions.h"
 #include "bullet_wetcloth/solver/GuardMesh.h"
@@ -39,7 +40,8 @@ class ClothGuard {
     bool isStill = false;  ///< it is not stepped: nothing moves it
     bool isNew = false;    ///< its mesh is a new one
     const LayerWetness* wetness = nullptr;
-    const int* nodeOfSlot = nullptr;  ///< of each slot, -1: none; or null: it is not known
+    const int* nodeOfSlot = nullptr;        ///< of each slot, -1: none; or null: it is not known
+    CoincidentNodes* coincident = nullptr;  ///< which count as one; or null: there are none
   };
 
   /// Before the first small step of a step: nodes stand where they were at its end, and pins where they come from.
@@ -108,6 +110,7 @@ class ClothGuard {
   ClothSolver::Guard m_parameters;
   const GuardExemptions* m_exemptions = nullptr;
   const CrossingExemptions* m_crossings = nullptr;
+  CoincidentExemptions m_coincident;
   ClothSolver::GuardTotals m_totals;
   GuardStops m_stops;
   GuardTiles m_tiles;

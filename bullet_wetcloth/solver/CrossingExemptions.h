@@ -35,22 +35,10 @@ class CrossingExemptions {
   /// Takes out the pairs that are exempt.
   void takeFrom(GuardCandidates& pairs) const {
     if (m_pairs.empty()) return;
-    takeFrom(pairs.vertexFace, 1);
-    takeFrom(pairs.edgeEdge, 2);
+    pairs.removeIfAny([this](int a, int b) { return has(a, b); });
   }
 
  private:
-  void takeFrom(std::vector<GuardPair>& pairs, int firstNodes) const {
-    const auto isExempt = [&](const GuardPair& pair) {
-      for (int i = 0; i < firstNodes; ++i) {
-        for (int k = firstNodes; k < 4; ++k) {
-          if (has(pair.node[i], pair.node[k])) return true;
-        }
-      }
-      return false;
-    };
-    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), isExempt), pairs.end());
-  }
   bool isIn(int node) const {
     return static_cast<std::size_t>(node) < m_isIn.size() && m_isIn[static_cast<std::size_t>(node)];
   }

@@ -57,6 +57,7 @@ void Crossings::add(const ClothGuard::Cloth& cloth, int number, const btVector3&
   const std::size_t firstEdge = m_edges.size();
   const std::size_t firstFace = m_faces.size();
   m_first.push_back(first);
+  m_coincident.add(toSize(cloth.nodeCount), cloth.coincident);
   for (int node = 0; node < cloth.nodeCount; ++node) m_places.push_back(crossingPlaceOf(cloth, node, origin));
   for (const GuardMesh::Face& face : cloth.mesh->faces) {
     m_faces.push_back(part({first + face.node[0], first + face.node[1], first + face.node[2]}));
@@ -107,8 +108,10 @@ Crossings::Part Crossings::part(const std::array<int, 3>& nodes) const {
 
 bool Crossings::cross(const Part& edge, const Part& face) const {
   if (!edge.box.overlaps(face.box)) return false;
-  for (const int node : edge.node) {
-    if (std::find(face.node.begin(), face.node.end(), node) != face.node.end()) return false;
+  for (const int a : edge.node) {
+    for (const int b : face.node) {
+      if (m_coincident.areOne(a, b)) return false;
+    }
   }
   return crossingPoint(m_places[toSize(edge.node[0])], m_places[toSize(edge.node[1])], m_places[toSize(face.node[0])],
                        m_places[toSize(face.node[1])], m_places[toSize(face.node[2])])
@@ -117,6 +120,7 @@ bool Crossings::cross(const Part& edge, const Part& face) const {
 
 void Crossings::find(const std::vector<ClothGuard::Cloth>& cloths, const ClothSolver::Guard& parameters) {
   m_first.clear();
+  m_coincident.clear();
   m_places.clear();
   m_faces.clear();
   m_edges.clear();
@@ -129,6 +133,23 @@ void Crossings::find(const std::vector<ClothGuard::Cloth>& cloths, const ClothSo
       if (edges.box.overlaps(faces.box)) findIn(edges, faces, cloths);
     }
   }
+}
+
+void Crossings::joinCuts(const std::vector<ClothGuard::Cloth>& cloths) {
+  const auto isJoined = [&](const Crossing& crossing) {
+    CoincidentNodes* const coincident = cloths[toSize(crossing.cloth[0])].coincident;
+    if (!coincident || crossing.cloth[0] != crossing.cloth[1]) return false;
+    const int first = m_first[toSize(crossing.cloth[0])];
+    bool isOne = false;
+    for (const int a : crossing.edge) {
+      for (const int b : crossing.face) {
+        isOne = coincident->joinAgain(a - first, b - first) ||
+                coincident->first(a - first) == coincident->first(b - first) || isOne;
+      }
+    }
+    return isOne;
+  };
+  m_found.erase(std::remove_if(m_found.begin(), m_found.end(), isJoined), m_found.end());
 }
 
 void Crossings::findIn(const Tile& edges, const Tile& faces, const std::vector<ClothGuard::Cloth>& cloths) {

@@ -13,7 +13,7 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 /// An edge that goes through a face, of one cloth or of two. Nodes are numbered as those of all cloths, one cloth after
-/// the other; what shares a node does not cross.
+/// the other; what shares a node, or has two that count as one, does not cross.
 struct Crossing {
   std::array<int, 2> edge;
   std::array<int, 3> face;
@@ -48,6 +48,8 @@ class Crossings {
   /// Where the cloths are now, as far as these parameters want them kept apart.
   void find(const std::vector<ClothGuard::Cloth>& cloths, const ClothSolver::Guard& parameters);
   const std::vector<Crossing>& found() const { return m_found; }
+  /// Counts nodes as one again that have just come apart where sides of a cut cross, and leaves out these crossings.
+  void joinCuts(const std::vector<ClothGuard::Cloth>& cloths);
 
  private:
   // A face, or an edge whose third corner is its second.
@@ -72,6 +74,7 @@ class Crossings {
   void findIn(const Tile& edges, const Tile& faces, const std::vector<ClothGuard::Cloth>& cloths);
 
   std::vector<int> m_first;  // node of each cloth
+  CoincidentExemptions m_coincident;
   std::vector<BodyPoint> m_places;
   std::vector<Part> m_faces;
   std::vector<Part> m_edges;

@@ -19,6 +19,7 @@ std::string pairs(long long count) { return std::to_string(count) + " pairs of a
 
 long long Entanglements::count(const Cloths& cloths, const ClothSolver::Guard& parameters) {
   m_crossings.find(cloths.nodes, parameters);
+  m_crossings.joinCuts(cloths.nodes);
   const long long found = static_cast<long long>(m_crossings.found().size());
   m_most = std::max(m_most, found);
   return found;

@@ -5,6 +5,7 @@
 
 #include <LinearMath/btVector3.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -83,6 +84,23 @@ struct GuardCandidates {
   }
   std::size_t size() const { return vertexFace.size() + edgeEdge.size(); }
   bool isEmpty() const { return size() == 0; }
+  /// Takes out the pairs of which some node of the first part and some of the second are so.
+  template <class AreSo>
+  void removeIfAny(const AreSo& areSo) {
+    const auto removeFrom = [&areSo](std::vector<GuardPair>& pairs, int firstNodes) {
+      const auto isSo = [&](const GuardPair& pair) {
+        for (int i = 0; i < firstNodes; ++i) {
+          for (int k = firstNodes; k < 4; ++k) {
+            if (areSo(pair.node[i], pair.node[k])) return true;
+          }
+        }
+        return false;
+      };
+      pairs.erase(std::remove_if(pairs.begin(), pairs.end(), isSo), pairs.end());
+    };
+    removeFrom(vertexFace, 1);
+    removeFrom(edgeEdge, 2);
+  }
 };
 
 }  // namespace WETCLOTH_PRECISION

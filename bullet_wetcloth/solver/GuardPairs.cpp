@@ -25,9 +25,10 @@ constexpr btScalar kReserve = btScalar(0.1);      // of the thickness, that is n
 constexpr btScalar kUsed = btScalar(0.5);         // of what is left of it, in a small step
 constexpr btScalar kParts = btScalar(0.05);       // of the thickness that is missing, in a small step
 // In roundings of a place. A measured gap is wrong by less than 14 of them: see docs/guard.md.
-constexpr btScalar kApart = 1;   // a gap that is computed in double has to be more at the end of a small step
-constexpr btScalar kSmall = 32;  // a gap does not shrink below, and is computed in double there
-constexpr btScalar kNoise = 3;   // what moving two parts as one may do to a gap
+constexpr btScalar kApart = 1;      // a gap that is computed in double has to be more at the end of a small step
+constexpr btScalar kSmall = 32;     // a gap does not shrink below, and is computed in double there
+constexpr btScalar kNoise = 3;      // what moving two parts as one may do to a gap
+constexpr btScalar kMostLever = 4;  // how far a node goes for what two places are to come apart
 constexpr btScalar kWorthParting = 128;
 constexpr double kOfTheWay = 0.9;  // to the least gap, when a group is slowed
 
@@ -45,14 +46,19 @@ WETCLOTH_INLINE void shift(GuardNodes::Place& place, const Quad& by, btScalar sh
   store(place.at, load<Quad>(place.at) + by * everywhere<Quad>(share));
 }
 
-// How much the two places of a plane resist being moved apart: the sum of squared weights over masses [1/kg].
+// How much the two places of a plane yield to being moved apart: the sum of squared weights over masses [1/kg]. More is
+// said where a node would have to go several times as far as they come apart: a place right beside a pinned node is to
+// stay there, and not to throw the other end of an edge away.
 btScalar yieldOf(const GuardPlanes& planes, std::size_t plane, const GuardNodes& nodes) {
   btScalar sum = 0;
+  btScalar largest = 0;
   for (int k = 0; k < 4; ++k) {
     const btScalar weight = planes.weight(plane, k);
-    sum += weight * weight * nodes.inverseMass[toSize(planes.node(plane, k))];
+    const btScalar share = std::fabs(weight) * nodes.inverseMass[toSize(planes.node(plane, k))];
+    sum += std::fabs(weight) * share;
+    largest = std::max(largest, share);
   }
-  return sum;
+  return std::max(sum, largest / kMostLever);
 }
 
 }  // namespace

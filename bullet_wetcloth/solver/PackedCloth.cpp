@@ -73,6 +73,7 @@ void PackedCloth::takeMesh() {
   m_grid = slots.grid;
   m_guardMesh.reset();
   m_guardPlaces.clear();
+  m_coincident = {};
   m_facesByNodes.reset();
   m_nodes.reset(slots);
   m_links.reset(m_body, slots);
@@ -298,6 +299,8 @@ void PackedCloth::makeGuardMesh() {
   const bool isRestored = !m_guardPlaces.empty();
   for (int k = 0; k < m_body.m_nodes.size() && !isRestored; ++k) m_guardPlaces.push_back(m_body.m_nodes[k].m_x);
   m_guardMesh = std::make_unique<GuardMesh>(guardMeshOf(m_body, m_grid, m_guardPlaces));
+  if (!isRestored) m_coincident.find(m_guardPlaces);
+  m_coincident.setEdges(m_guardMesh->edges, m_guardPlaces);
   if (isRestored) m_guardMesh->edgeLength = m_guardEdge;  // links may not follow all edges
   m_guardEdge = m_guardMesh->edgeLength;
 }
@@ -314,7 +317,18 @@ ClothGuard::Cloth PackedCloth::guarded() {
           false,
           isNew,
           &m_wetness,
-          m_nodes.nodesOfSlots()};
+          m_nodes.nodesOfSlots(),
+          m_coincident.isEmpty() ? nullptr : &m_coincident};
+}
+
+bool PackedCloth::takePlaced() {
+  const MovingNodes nodes = m_nodes.moving();
+  const auto placeOf = [&](int node) {
+    const std::size_t slot = toSize(m_nodes.slots()[node]);
+    return btVector3(nodes.position[0][slot], nodes.position[1][slot], nodes.position[2][slot]);
+  };
+  const bool haveComeApart = m_coincident.separate(placeOf);
+  return m_nodes.takePlaced() || haveComeApart;
 }
 
 std::optional<ClothGuard::Cloth> PackedCloth::standing() {
@@ -360,6 +374,7 @@ void PackedCloth::transferGuardMesh(StateArchive& archive) {
   if (archive.isSaving()) places = m_guardPlaces;
   archive.array(places);
   archive.value(m_guardEdge);
+  m_coincident.transferState(archive, m_body.m_nodes.size());
   if (!archive.isRestoring()) return;
   m_guardPlaces = places;
   m_guardMesh.reset();

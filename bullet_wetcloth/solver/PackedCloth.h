@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/solver/AnchorProjection.h"
 #include "bullet_wetcloth/solver/ClothGuard.h"
 #include "bullet_wetcloth/solver/ClothSolver.h"
+#include "bullet_wetcloth/solver/CoincidentNodes.h"
 #include "bullet_wetcloth/solver/ContactProjection.h"
 #include "bullet_wetcloth/solver/FacesByNodes.h"
 #include "bullet_wetcloth/solver/LocalNodes.h"
@@ -62,8 +63,9 @@ class PackedCloth {
   void setLinkStiffness(const std::vector<btScalar>& factors, unsigned long long revision);
   /// Takes over the nodes, and predicts where they will be. False: the cloth rests in this step.
   bool predict(btScalar dt);
-  /// Whether, since this was asked last, free nodes were put elsewhere or moved without a guard.
-  bool takePlaced() { return m_nodes.takePlaced(); }
+  /// Whether, since this was asked last, free nodes were put elsewhere or moved without a guard, or nodes that
+  /// counted as one came apart.
+  bool takePlaced();
   /// Finds the contacts with a rigid body or a link of a multibody.
   void collide(const btCollisionObjectWrapper& object);
   /// All small steps.
@@ -113,6 +115,7 @@ class PackedCloth {
   std::unique_ptr<GuardMesh> m_guardMesh;        // while it is guarded
   std::vector<btVector3> m_guardPlaces;          // by which it was made [m]
   double m_guardEdge = 0;                        // its mean edge then [m]
+  CoincidentNodes m_coincident;                  // of it
   std::unique_ptr<FacesByNodes> m_facesByNodes;  // once its contacts are listed
   PinnedWays m_pins;
   LayerWetness m_wetness;
