@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/bullet_wetcloth.h"
 #include "tests/solver/ClothAndBodies.h"
 
+#include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <gtest/gtest.h>
@@ -41,19 +42,38 @@ std::unique_ptr<btCollisionShape> hullOf(const BodySurface& surface) {
   return shape;
 }
 
+std::unique_ptr<btTriangleMesh> meshOf(const BodySurface& surface) {
+  auto mesh = std::make_unique<btTriangleMesh>();
+  for (const auto& face : surface.faces) {
+    mesh->addTriangle(surface.corners[std::size_t(face[0])], surface.corners[std::size_t(face[1])],
+                      surface.corners[std::size_t(face[2])]);
+  }
+  return mesh;
+}
+
 /// A mesh that owns its triangles.
 class MeshShape : public btBvhTriangleMeshShape {
  public:
   static std::unique_ptr<btCollisionShape> of(const BodySurface& surface) {
-    auto mesh = std::make_unique<btTriangleMesh>();
-    for (const auto& face : surface.faces) {
-      mesh->addTriangle(surface.corners[std::size_t(face[0])], surface.corners[std::size_t(face[1])],
-                        surface.corners[std::size_t(face[2])]);
-    }
-    return std::make_unique<MeshShape>(std::move(mesh));
+    return std::make_unique<MeshShape>(meshOf(surface));
   }
   explicit MeshShape(std::unique_ptr<btTriangleMesh> mesh)
       : btBvhTriangleMeshShape(mesh.get(), true), m_mesh(std::move(mesh)) {}
+
+ private:
+  std::unique_ptr<btTriangleMesh> m_mesh;
+};
+
+/// The same, of Bullet's meshes that may move.
+class MovingMeshShape : public btGImpactMeshShape {
+ public:
+  static std::unique_ptr<btCollisionShape> of(const BodySurface& surface) {
+    auto shape = std::make_unique<MovingMeshShape>(meshOf(surface));
+    shape->updateBound();
+    return shape;
+  }
+  explicit MovingMeshShape(std::unique_ptr<btTriangleMesh> mesh)
+      : btGImpactMeshShape(mesh.get()), m_mesh(std::move(mesh)) {}
 
  private:
   std::unique_ptr<btTriangleMesh> m_mesh;
@@ -108,6 +128,10 @@ void addMesh(ClothAndBodies& scene) {
   const BodySurface blades = fan(7, 0.2, 0.2);
   scene.add(MeshShape::of(blades), blades, btVector3(0, btScalar(-0.23), 0));
 }
+void addMovingMesh(ClothAndBodies& scene) {
+  const BodySurface blades = fan(7, 0.2, 0.2);
+  scene.add(MovingMeshShape::of(blades), blades, btVector3(0, btScalar(-0.23), 0));
+}
 void addCompound(ClothAndBodies& scene) {
   // A rod on a shelf.
   static btBoxShape rod(btVector3(btScalar(0.002), btScalar(0.1), btScalar(0.002)));
@@ -124,6 +148,8 @@ INSTANTIATE_TEST_SUITE_P(, ClothFalls,
                                          Fall{"overASpike", 1, addSpike}, Fall{"fastOverASpike", 20, addSpike},
                                          Fall{"overACone", 1, addCone}, Fall{"fastOverACone", 20, addCone},
                                          Fall{"overAMesh", 1, addMesh}, Fall{"fastOverAMesh", 20, addMesh},
+                                         Fall{"overAMovingMesh", 1, addMovingMesh},
+                                         Fall{"fastOverAMovingMesh", 20, addMovingMesh},
                                          Fall{"overACompound", 1, addCompound},
                                          Fall{"fastOverACompound", 20, addCompound}),
                          [](const auto& test) { return std::string(test.param.name); });
