@@ -33,6 +33,9 @@ void requireValid(const Drying::Parameters& parameters) {
   if (!(parameters.criticalSaturation > 0 && parameters.criticalSaturation <= 1)) {
     rejectValue("Drying.criticalSaturation", parameters.criticalSaturation, "in (0, 1]");
   }
+  if (!(parameters.equilibriumSaturation >= 0 && parameters.equilibriumSaturation < parameters.criticalSaturation)) {
+    rejectValue("Drying.equilibriumSaturation", parameters.equilibriumSaturation, "in [0, criticalSaturation)");
+  }
   if (!(parameters.sides > 0 && parameters.sides <= 2)) rejectValue("Drying.sides", parameters.sides, "in (0, 2]");
   if (!(parameters.selfCooling > 0 && parameters.selfCooling <= 1)) {
     rejectValue("Drying.selfCooling", parameters.selfCooling, "in (0, 1]");
@@ -127,20 +130,22 @@ bool Drying::isCovered(std::size_t node) const {
 bool Drying::dry(WetCloth& cloth, const Step& step, std::size_t node) {
   Water& water = cloth.water();
   const double held = water.held(node);
-  if (!(held > 0)) return true;
+  const double kept = m_parameters.equilibriumSaturation * water.capacity(node);
+  if (!(held > kept)) return true;
   const double rate = rateOf(cloth, step, node);
   // A function may expose the node later, and a speed that is not finite pass; anything else stays as it is.
   if (!(rate > 0)) return m_mesh->nodeAreas()[node] == 0 || isCovered(node);
 
-  const double exact = held - m_carry[node];
-  const double leaving = dryingStep(exact, m_parameters.criticalSaturation * water.capacity(node), rate, step.dt);
+  const double exact = held - m_carry[node] - kept;
+  const double critical = m_parameters.criticalSaturation * water.capacity(node) - kept;
+  const double leaving = dryingStep(std::max(exact, 0.0), critical, rate, step.dt);
   const bool isLast = exact - leaving <= kNegligible * water.capacity(node);
   const auto evaporate = [&](double mass) { return water.evaporate(node, mass); };
   if (!isLast) {
     m_carry.pass(node, leaving, evaporate);
     return false;
   }
-  evaporate(held);
+  evaporate(held - kept);
   m_carry.settle(node);
   return true;
 }

@@ -35,7 +35,8 @@ WETCLOTH_EXPORT double dryingStep(double held, double critical, double rate, dou
 WETCLOTH_EXPORT double dryingTime(double from, double to, double critical, double rate);
 
 /// Lets a cloth dry: each node loses water by its area at rest, at a constant rate as long as its surface is wet, then
-/// in proportion to what is left. Does not know what is under water or indoors: that is for `exposure` to say.
+/// in proportion to what is left above what the fibres keep in that air. Does not know what is under water or indoors:
+/// that is for `exposure` to say.
 class WETCLOTH_EXPORT Drying : public Effect {
  public:
   /// What can be set, with units and ranges. Checked when the effect is made, and by setParameters().
@@ -47,6 +48,9 @@ class WETCLOTH_EXPORT Drying : public Effect {
     WindField air = {};
     /// Saturation at which the surface begins to fall dry, (0, 1]. A guess.
     double criticalSaturation = 0.3;
+    /// Saturation that the fibres keep in this air, however long they hang in it [0, criticalSaturation): moisture
+    /// regain over capacity. What is above it dries. 0 by default: a cloth is dry at the mass that it has in the air.
+    double equilibriumSaturation = 0;
     double sides = 2;  ///< of the cloth that air reaches, (0, 2]
     /// Share of the rate that remains when drying cools the cloth below the air, (0, 1]; 1: something keeps it as warm
     /// as the air. 0.49 in calm air of 20 C, less in wind (docs/fabrics.md); two sides then dry 128 g/m^2/h by default.

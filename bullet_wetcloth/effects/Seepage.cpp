@@ -139,5 +139,14 @@ void Seepage::transferState(StateArchive& archive) {
   archive.value(m_nodesVisited, m_substeps);
 }
 
+Seepage::Parameters seepageInBalance(const Diffusion::Parameters& diffusion, double height) {
+  requirePositive("seepageInBalance.height", height);
+  static_cast<void>(Diffusion(diffusion));  // is it one?
+  Seepage::Parameters parameters;
+  parameters.speed = std::sqrt(diffusion.warpDiffusivity) * std::sqrt(diffusion.weftDiffusivity) / height;
+  parameters.exponent = std::min(diffusion.exponent + 1, kLargestSeepageExponent);
+  return parameters;
+}
+
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

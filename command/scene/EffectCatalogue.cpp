@@ -72,13 +72,14 @@ std::vector<EffectScene> readEffects(JsonCursor cursor, const EffectContext& con
                                      const EffectCatalogue& catalogue) {
   const KeyTable keys = effectKeys(catalogue);
   cursor.expectObject(keys);
+  const EffectContext among{context.scene, context.cloth, &cursor};
   std::vector<EffectScene> effects;
   for (const EffectEntry& entry : catalogue) {
     auto found = cursor.find(entry.key);
     if (!found) continue;
     found->expectObject(entry.keys);
     if (entry.needs.water && !context.scene.water) found->complain("the scene must say where its water is, /water");
-    effects.push_back({entry.key, entry.read(*found, context), entry.water, speedsIn(found->json())});
+    effects.push_back({entry.key, entry.read(*found, among), entry.water, speedsIn(found->json())});
   }
   return effects;
 }

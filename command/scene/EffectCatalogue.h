@@ -14,8 +14,9 @@ namespace command {
 
 /// What the objects of a cloth's effects may refer to; read before them.
 struct EffectContext {
-  const Scene& scene;       ///< its water and colliders
-  const ClothScene& cloth;  ///< its shape
+  const Scene& scene;                   ///< its water and colliders
+  const ClothScene& cloth;              ///< its shape
+  const JsonCursor* effects = nullptr;  ///< of the cloth, from readEffects() on
 };
 
 /// What of its cloth or its scene an effect cannot do without: the library refuses it there.

@@ -40,6 +40,9 @@ AddEffect readDrying(const JsonCursor& cursor, const EffectContext& context) {
   if (cursor.find("velocity_m_s") || cursor.find("gust")) parameters.air = readWindField(cursor);
   readNumber(cursor, "self_cooling", Range::positiveFraction(), parameters.selfCooling);
   readNumber(cursor, "critical_saturation", Range::positiveFraction(), parameters.criticalSaturation);
+  readNumber(cursor, "equilibrium_saturation",
+             Range{0, parameters.criticalSaturation, true, "in [0, critical_saturation)", false},
+             parameters.equilibriumSaturation);
   readNumber(cursor, "sides", Range{0, 2, false, "in (0, 2]"}, parameters.sides);
   if (const auto exposure = cursor.find("exposure"))
     parameters.exposure = readExposure(*exposure, context.cloth.nodeCount());
@@ -52,7 +55,7 @@ EffectEntry drying() {
   entry.about = "`exposure` as of `absorption`, the share that air reaches; `velocity_m_s` or `gust` as of `wind`";
   entry.keys = {"drying",
                 {"temperature_c", "relative_humidity", "velocity_m_s", "gust", "self_cooling", "critical_saturation",
-                 "sides", "exposure"}};
+                 "equilibrium_saturation", "sides", "exposure"}};
   entry.read = readDrying;
   entry.byDefault = addDefault<Drying>;
   entry.needs.faces = true;

@@ -9,7 +9,10 @@ namespace {
 using wetcloth::Diffusion;
 using wetcloth::Seepage;
 
-AddEffect readDiffusion(const JsonCursor& cursor, const EffectContext&) {
+const KeyTable kDiffusionKeys = {
+    "diffusion", {"warp_diffusivity_m2_s", "weft_diffusivity_m2_s", "exponent", "warp", "method", "tolerance"}};
+
+Diffusion::Parameters diffusionOf(const JsonCursor& cursor) {
   using Method = Diffusion::Method;
   static const std::vector<std::pair<std::string, Method>> methods{{"factored", Method::factored},
                                                                    {"explicit_substeps", Method::explicitSubsteps},
@@ -21,15 +24,18 @@ AddEffect readDiffusion(const JsonCursor& cursor, const EffectContext&) {
   readDirection(cursor, "warp", parameters.warp);
   if (const auto method = cursor.find("method")) parameters.method = method->choice(methods);
   readNumber(cursor, "tolerance", Range{0, 1, false, "in (0, 1)", false}, parameters.tolerance);
-  return addEffect<Diffusion>(parameters);
+  return parameters;
+}
+
+AddEffect readDiffusion(const JsonCursor& cursor, const EffectContext&) {
+  return addEffect<Diffusion>(diffusionOf(cursor));
 }
 
 EffectEntry diffusion() {
   EffectEntry entry;
   entry.key = "diffusion";
   entry.about = "`method`: `factored`, `explicit_substeps`, `conjugate_gradients`; `tolerance` is of the last";
-  entry.keys = {"diffusion",
-                {"warp_diffusivity_m2_s", "weft_diffusivity_m2_s", "exponent", "warp", "method", "tolerance"}};
+  entry.keys = kDiffusionKeys;
   entry.read = readDiffusion;
   entry.byDefault = addDefault<Diffusion>;
   entry.needs.faces = true;
@@ -37,7 +43,18 @@ EffectEntry diffusion() {
   return entry;
 }
 
-AddEffect readSeepage(const JsonCursor& cursor, const EffectContext&) {
+Seepage::Parameters inBalance(const JsonCursor& height, const JsonCursor& effects) {
+  auto diffusion = effects.find("diffusion");
+  if (!diffusion) height.complain("there is no \"diffusion\" to be in balance with");
+  diffusion->expectObject(kDiffusionKeys);
+  return wetcloth::seepageInBalance(diffusionOf(*diffusion), height.number(Range::positive()));
+}
+
+AddEffect readSeepage(const JsonCursor& cursor, const EffectContext& context) {
+  if (const auto height = cursor.find("height_m")) {
+    if (cursor.find("speed_m_s") || cursor.find("exponent")) height->complain("it stands for speed_m_s and exponent");
+    return addEffect<Seepage>(inBalance(*height, *context.effects));
+  }
   Seepage::Parameters parameters;
   readNumber(cursor, "speed_m_s", Range::notNegative(), parameters.speed);
   readNumber(cursor, "exponent", Range{1, 100, true, "in [1, 100]"}, parameters.exponent);
@@ -47,8 +64,8 @@ AddEffect readSeepage(const JsonCursor& cursor, const EffectContext&) {
 EffectEntry seepage() {
   EffectEntry entry;
   entry.key = "seepage";
-  entry.about = "down along the cloth, under gravity";
-  entry.keys = {"seepage", {"speed_m_s", "exponent"}};
+  entry.about = "down along the cloth, under gravity; `height_m` instead of both: in balance with `diffusion` over it";
+  entry.keys = {"seepage", {"speed_m_s", "exponent", "height_m"}};
   entry.read = readSeepage;
   entry.byDefault = addDefault<Seepage>;
   entry.needs.faces = true;

@@ -75,6 +75,7 @@ const std::vector<BadNumber>& badNumbers() {
       {"drying/relative_humidity", {-0.1, 50}, "must be in [0, 1]"},
       {"drying/self_cooling", {0, 1.1}, "must be in (0, 1]"},
       {"drying/critical_saturation", {0, 1.1}, "must be in (0, 1]"},
+      {"drying/equilibrium_saturation", {-0.1, 0.3, 0.5}, "must be in [0, critical_saturation)"},
       {"drying/sides", {0, 2.1}, "must be in (0, 2]"},
       {"drying/exposure", {-0.1, 1.1}, "must be in [0, 1]"},
       {"wet_stiffness/wet_stretch", {0, 0.0009, 1001}, "must be in [0.001, 1000]"},

@@ -94,6 +94,7 @@ std::vector<Key> keysThatShow() {
 Json changed(const std::string& key, const Json& value) {
   if (key == "tolerance") return 0.5;
   if (key == "minimum_saturation") return 0.4;
+  if (key == "equilibrium_saturation") return 0.1;
   if (key == "adhesion_pa") return 0;  // the ball is below: little pull is enough
   if (value.is_boolean()) return !value.get<bool>();
   if (value.is_array()) return Json({0.5, -0.7, 0.6});
@@ -107,8 +108,8 @@ Json sceneFor(const Key& key) {
   Json& effect = clothOf(scene)["effects"][key.effect];
   if (key.key == "tolerance") effect["method"] = "conjugate_gradients";
   if (key.key == "warp") effect["warp_diffusivity_m2_s"] = 1e-3;
-  const bool isOfALittleWater =
-      key.key == "critical_saturation" || key.key == "minimum_saturation" || key.key == "peak_saturation";
+  const bool isOfALittleWater = key.key == "critical_saturation" || key.key == "equilibrium_saturation" ||
+                                key.key == "minimum_saturation" || key.key == "peak_saturation";
   if (isOfALittleWater) clothOf(scene)["initial_saturation"] = 0.2;
   return scene;
 }

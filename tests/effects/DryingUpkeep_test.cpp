@@ -126,6 +126,7 @@ TEST(DryingBadInput, IsNamed) {
   expectRefused(&Drying::Parameters::temperature, "temperature", {-1, 61, kNaN, kInfinity});
   expectRefused(&Drying::Parameters::relativeHumidity, "relativeHumidity", {-0.1, 1.1, kNaN, kInfinity});
   expectRefused(&Drying::Parameters::criticalSaturation, "criticalSaturation", {0, -0.1, 1.1, kNaN, kInfinity});
+  expectRefused(&Drying::Parameters::equilibriumSaturation, "equilibriumSaturation", {-0.1, 0.3, 0.5, kNaN, kInfinity});
   expectRefused(&Drying::Parameters::sides, "sides", {0, -1, 2.5, kNaN, kInfinity});
   Drying::Parameters parameters;
   parameters.air = btVector3(0, btScalar(kNaN), 0);

@@ -66,6 +66,39 @@ TEST(Drying, FollowsTheClosedFormWhateverTheStep) {
   }
 }
 
+// What is above it dries as if it were all there is.
+TEST(Drying, LeavesWhatTheFibresKeepInTheAir) {
+  for (const int steps : {1, 100}) {
+    Drying::Parameters parameters;
+    parameters.equilibriumSaturation = 0.1;
+    Line line(parameters);
+    const double kept = 0.1 * line.capacity();
+    for (const double time : {1000.0, 4000.0}) {
+      const double before = line.held() - kept;
+      const double dt = double(btScalar(time / steps));
+      for (int i = 0; i < steps; ++i) line.scene.preTick(dt);
+      const double left = before - dryingStep(before, 0.2 * line.capacity(), rate(), steps * dt);
+      EXPECT_NEAR(line.held() / (kept + left), 1, 10 * kGeometry) << time << " s in " << steps;
+    }
+    for (int i = 0; i < 100; ++i) line.scene.preTick(1e4);
+    EXPECT_NEAR(line.held() / kept, 1, 1e-12);
+    const double atRest = line.held();
+    line.scene.preTick(1e4);
+    EXPECT_EQ(line.held(), atRest);
+  }
+}
+
+// Drier cloth takes nothing from the air: that is for Absorption.
+TEST(Drying, TakesNothingFromClothThatIsDrierThanTheAirKeepsIt) {
+  Drying::Parameters parameters;
+  parameters.equilibriumSaturation = 0.2;
+  Line line(parameters);
+  line.scene.cloth().setSaturation(0.1);
+  const double before = line.held();
+  line.scene.preTick(1000);
+  EXPECT_EQ(line.held(), before);
+}
+
 TEST(Drying, TakesTheDryingTimeOfTheClosedForm) {
   Line line;
   const double dt = 0.5;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Seepage: its formula, fronts, pools, what it leaves alone, and its balance with diffusion.
 
+#include "tests/support/Rejection.h"
 #include "tests/support/TransportScene.h"
 
 #include <gtest/gtest.h>
@@ -222,6 +223,45 @@ TEST(SeepageAndDiffusion, BalanceInANonlinearProfile) {
     // Upwind adds v s h / 2 D = 1.2 % to D.
     EXPECT_NEAR(meanSaturationAt(scene, y) * (1 / bottom + v * y / d), 1, 0.02) << y;
   }
+}
+
+// Of water that stands at the lower end, whatever the exponent: exp(-z / height).
+TEST(SeepageAndDiffusion, InBalanceFallExponentiallyOverTheirHeight) {
+  for (const double exponent : {1.0, 2.0, 4.0}) {
+    const int n = 61;
+    const double length = 0.1;
+    TransportScene scene(grid(3, n, 2 * length / (n - 1), length), kDown);
+    Diffusion::Parameters wicking;
+    wicking.weftDiffusivity = wicking.warpDiffusivity = 4e-4;
+    wicking.exponent = exponent;
+    scene.wet([](double, double y) { return std::exp(-y / 0.05) * 0.9; });
+    scene.cloth().add<Diffusion>(wicking);
+    scene.cloth().add<Seepage>(wetcloth::seepageInBalance(wicking, 0.05));
+    scene.run(500, 0.2);
+    const double bottom = meanSaturationAt(scene, 0);
+    for (int j = 0; j < n; ++j) {
+      const double y = length * j / (n - 1);
+      // Upwind takes s^(m + 1) of the upper end: half a spacing's share of (m + 1) / height of the exponent too much.
+      const double upwind = (exponent + 1) * length / (n - 1) / 2 / 0.05 * y / 0.05;
+      EXPECT_NEAR(std::log(meanSaturationAt(scene, y) / bottom), -y / 0.05, 1.6 * upwind + 0.01)
+          << y << ' ' << exponent;
+    }
+  }
+}
+
+TEST(SeepageInBalance, IsTheDefaultOfTheDefault) {
+  const Seepage::Parameters parameters = wetcloth::seepageInBalance({}, 0.1);
+  EXPECT_NEAR(parameters.speed / Seepage::Parameters().speed, 1, 1e-15);
+  EXPECT_EQ(parameters.exponent, Seepage::Parameters().exponent);
+}
+
+TEST(SeepageInBalance, BadInputIsNamed) {
+  for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+    EXPECT_EQ(rejection([&] { wetcloth::seepageInBalance({}, bad); }).find("seepageInBalance.height = "), 0u);
+  }
+  Diffusion::Parameters wicking;
+  wicking.warpDiffusivity = -1;
+  EXPECT_EQ(rejection([&] { wetcloth::seepageInBalance(wicking, 0.1); }).find("Diffusion.warpDiffusivity = -1"), 0u);
 }
 
 TEST(Seepage, HoldsOnHardMeshesForAnyStep) {
