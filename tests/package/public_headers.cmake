@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Zlib
-# What is installed compiles without a warning of an application's usual ones, each header by itself, in C++17, 20 and
-# 23, by every compiler that is here.
+# What is installed compiles without a warning of an application's usual ones, each header by itself, in C++17 and 23,
+# by every compiler that is here.
 include("${CMAKE_CURRENT_LIST_DIR}/package_test.cmake")
 
 set(SANITIZE "")
