@@ -47,8 +47,9 @@ void expectWithinOneSubstep(const Json& cases) {
 
 using FallInWorld = testing::TestWithParam<const char*>;
 
-// In one world from the heights of the paper. In the others a cloth falls less far, dry ones to nearly their final speed
-// all the same: the deformable world takes ten times as long, and that of multibodies differs in its rigid bodies alone.
+// In one world from the heights of the paper. In the others a cloth falls less far, dry ones to nearly their final
+// speed all the same: the deformable world takes ten times as long, and that of multibodies differs in its rigid bodies
+// alone.
 bool isFromThePapersHeight(const std::string& world) { return world == "soft_rigid"; }
 double paperHeight(const std::string& world) { return isFromThePapersHeight(world) ? 19.62 : 4; }
 double physicalHeight(const std::string& world) { return isFromThePapersHeight(world) ? 5.5 : 1.5; }
