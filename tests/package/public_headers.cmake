@@ -12,6 +12,6 @@ foreach(compiler IN ITEMS "${CXX_COMPILER}" ${OTHER_COMPILERS})
   file(REMOVE_RECURSE "${WORK_DIR}/${name}")
   configure("${CMAKE_CURRENT_LIST_DIR}/headers" "${WORK_DIR}/${name}" "-DCMAKE_PREFIX_PATH=${INSTALLED}"
             -DALONE=${alone})
-  run("${CMAKE_COMMAND}" --build "${WORK_DIR}/${name}" --parallel 2)
+  run("${CMAKE_COMMAND}" --build "${WORK_DIR}/${name}" --parallel 1)
   set(alone OFF)
 endforeach()
