@@ -3,10 +3,24 @@
 # optimizing; what is compiled once and run once is not.
 set(WETCLOTH_LIBRARY_OPTIONS "" CACHE STRING "Compiler options for the libraries, and for loops that the tests wait for")
 
-# wetcloth_compile_as_library(<source>...): such loops
-function(wetcloth_compile_as_library)
+# wetcloth_compile_as_library(<target> <source>...): such loops of a target. They are one object where files are compiled
+# together, as CMake's unity build leaves out sources with options of their own.
+function(wetcloth_compile_as_library target)
+  set(sources ${ARGN})
+  if(WETCLOTH_FILES_PER_OBJECT GREATER 1)
+    set(together "")
+    foreach(source IN LISTS sources)
+      string(APPEND together "#include \"${CMAKE_CURRENT_SOURCE_DIR}/${source}\"\n")
+    endforeach()
+    set_source_files_properties(${sources} PROPERTIES HEADER_FILE_ONLY ON)
+    set(sources "${CMAKE_CURRENT_BINARY_DIR}/${target}-loops.cpp")
+    file(CONFIGURE OUTPUT "${sources}" CONTENT "${together}" @ONLY)
+  endif()
+  target_sources(${target} PRIVATE ${sources})
   # A precompiled header serves one level of optimization.
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${WETCLOTH_LIBRARY_OPTIONS}" SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties(
+    ${sources} PROPERTIES COMPILE_OPTIONS "${WETCLOTH_LIBRARY_OPTIONS}" SKIP_PRECOMPILE_HEADERS ON
+                          SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # wetcloth_add_library(<target> EXPORT_NAME <name> EXPORTS <macro> <source>...)

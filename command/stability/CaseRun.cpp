@@ -13,10 +13,10 @@ namespace {
 constexpr int kFewestSteps = 60;  // long enough to blow up at the longest step, too
 
 int stepsOf(const HardCase& hardCase, double dt, Effort effort) {
-  const bool isShort = effort == Effort::quick && hardCase.quickDuration > 0;
-  const double duration = isShort ? hardCase.quickDuration : hardCase.duration;
-  const int steps = hardCase.steps > 0 ? hardCase.steps : static_cast<int>(std::ceil(duration / dt - 1e-9));
-  return std::max(steps, kFewestSteps);
+  const bool isQuick = effort == Effort::quick;
+  if (hardCase.steps > 0) return isQuick && hardCase.quickSteps > 0 ? hardCase.quickSteps : hardCase.steps;
+  const double duration = isQuick && hardCase.quickDuration > 0 ? hardCase.quickDuration : hardCase.duration;
+  return std::max(static_cast<int>(std::ceil(duration / dt - 1e-9)), kFewestSteps);
 }
 
 bool advance(CaseScene& scene, const Script& script, SceneMeter& sceneMeter, CaseMeter& meter) {

@@ -29,6 +29,7 @@ struct HardCase {
   double duration = 3;       ///< [s]
   double quickDuration = 0;  ///< of a quick run of the table; 0: no shorter [s]
   int steps = 0;             ///< instead, where it is they that count; 0: as many as the duration has, and 60 at least
+  int quickSteps = 0;        ///< of a quick run of the table; 0: no fewer
   bool isWeightless = false;
   bool comparesAlways = true;  ///< plain Bullet is run, too; else only where ours does not hold
   /// Fills the scene, sets its limits and says what goes on in it. The same bodies for each Way.

@@ -64,7 +64,7 @@ TEST_F(Checkpoint, AResumedRunEndsAsOneThatWasNot) {
 // However short the time between two kills is at first, it grows until one step from checkpoint to checkpoint fits in.
 TEST_F(Checkpoint, SurvivesBeingKilledAgainAndAgain) {
   Json scene = readJson(sceneFile("towel_under_hose"));
-  scene["duration_s"] = 2.5;
+  scene["duration_s"] = 1.2;
   const std::string path = m_directory.write("scene.json", scene.dump());
   const Json whole = runScene(path);
   double seconds = 0.04;

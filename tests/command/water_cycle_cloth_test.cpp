@@ -182,6 +182,7 @@ TEST(WaterCycleCloth, AWrungTowelLosesWaterByTheSqueezeAndPassesThroughNothing) 
   EXPECT_EQ(wrung.at("audit").at("edge_edge"), 0);
   EXPECT_GT(ledger(wrung, "dripped"), 0.1 * ledger(wrung, "initial"));
   clothOf(scene)["effects"]["dripping"].erase("squeeze");
+  clothOf(scene)["effects"].erase("collision_audit");  // which only looks
   EXPECT_LT(ledger(runScene(scene), "dripped"), 0.4 * ledger(wrung, "dripped"));
 }
 

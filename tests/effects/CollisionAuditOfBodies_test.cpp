@@ -229,11 +229,12 @@ TEST_IN_EVERY_WORLD(AuditOfBodies, AnExplodedSheetIsLookedAtUpToTheLimitWhichIsS
     audit.look();
     EXPECT_EQ(audit.totals().incompleteSubsteps, 0);
     const long long before = audit.totals().candidatePairs;
-    for (const int round : {1, 2, 3}) {
+    const int rounds = limited ? 3 : 1;
+    for (int round = 1; round <= rounds; ++round) {
       explode(scene.body(), round);
       audit.look();
     }
-    const long long perFace = (audit.totals().candidatePairs - before) / (3 * scene.body().m_faces.size());
+    const long long perFace = (audit.totals().candidatePairs - before) / (rounds * scene.body().m_faces.size());
     EXPECT_EQ(audit.totals().incompleteSubsteps, limited ? 3 : 0);
     EXPECT_EQ(said.size(), limited ? 1u : 0u);
     EXPECT_GE(perFace, limited ? 20 : 500);

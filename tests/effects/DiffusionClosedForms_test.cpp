@@ -239,7 +239,7 @@ TEST(DiffusionClosedForms, APointSourceIsAGaussian) {
     parameters.warp = btVector3(btScalar(3 * c), btScalar(3 * s), 1);
     scene.cloth().add<Diffusion>(parameters);
     const double t = 4;
-    scene.run(400, t / 400);
+    scene.run(200, t / 200);
     const double peak = h * h / (4 * kPi * t * std::sqrt(warp * weft));
     for (int i = 0; i < scene.count(); ++i) {
       const double x = scene.x(i) - 0.5;
@@ -306,7 +306,7 @@ TEST(DiffusionClosedForms, AFrontAdvancesWithTheRootOfTime) {
     scene.cloth().add(std::make_unique<DipsLeftEdge>());
     scene.cloth().add<Diffusion>(with(d, 2, method));
     for (int quarter = 1; quarter <= 4; ++quarter) {
-      scene.run(5000, 0.01);
+      scene.run(2500, 0.02);
       const double t = 50 * quarter;
       // First order in h / front at the first quarter: 1/160 of 0.2.
       EXPECT_NEAR(std::pow(frontOf(scene, level), 2), slope * d * t, 0.03 * slope * d * t) << t;

@@ -27,7 +27,9 @@ water_cycle::Choice everything(std::mt19937& random) {
   return choice;
 }
 
-TEST_IN_EVERY_WORLD(WaterLedger, ClosesAfterAHundredThousandStepsOfEverything) {
+// A hundred thousand steps in one world; the others, whose own step is not taken, have fewer.
+TEST_IN_EVERY_WORLD(WaterLedger, ClosesAfterManyStepsOfEverything) {
+  const int steps = GetParam() == WorldKind::softRigid ? 100000 : 20000;
   std::mt19937 random(5);
   BodyScene scene(GetParam(), hangingPatch(4));
   water_cycle::giveWater(scene.bullet().info(), btScalar(0.4));
@@ -36,13 +38,13 @@ TEST_IN_EVERY_WORLD(WaterLedger, ClosesAfterAHundredThousandStepsOfEverything) {
   wetcloth::WetCloth& cloth = wet.add(scene.body(), fabricOf(0.84, 9));
   cloth.setSaturation(0.5);
   water_cycle::add(cloth, everything(random));
-  for (int step = 1; step <= 100000; ++step) {
+  for (int step = 1; step <= steps; ++step) {
     wet.preTick(btScalar(1) / 240);
-    if (step % 10000 != 0) continue;
+    if (step % (steps / 10) != 0) continue;
     ASSERT_EQ(water_cycle::faultOf(cloth), "") << "step " << step;
   }
   const wetcloth::Ledger ledger = cloth.ledger();
-  EXPECT_GT(ledger.absorbed, 10 * cloth.water().totalCapacity()) << "much water has come";
+  EXPECT_GT(ledger.absorbed, steps / 10000 * cloth.water().totalCapacity()) << "much water has come";
   EXPECT_GT(ledger.dripped, 0);
   EXPECT_GT(ledger.evaporated, 0);
 }

@@ -10,7 +10,7 @@ configure(
   "${SOURCE_DIR}" "${build}" -DBUILD_SHARED_LIBS=ON "-DWETCLOTH_BUILD_PRECISIONS=${precision}"
   -DWETCLOTH_FILES_PER_OBJECT=200 -DWETCLOTH_BUILD_TESTS=OFF -DWETCLOTH_BUILD_EXAMPLES=OFF -DWETCLOTH_BUILD_COMMAND=OFF
   -DWETCLOTH_EXACT_COLLISION=OFF)
-run("${CMAKE_COMMAND}" --build "${build}" --parallel 2)
+run("${CMAKE_COMMAND}" --build "${build}" --parallel 1)
 run("${CMAKE_COMMAND}" --install "${build}" --prefix "${prefix}")
 file(RENAME "${prefix}" "${prefix}-moved")
 

@@ -28,7 +28,7 @@ def find():
 class Browser:
     """One page in a browser of its own; use it in a `with` statement."""
 
-    def __init__(self, width=900, height=600, dark=False):
+    def __init__(self, width=900, height=600):
         self.errors = []  # what the page logged as an error or threw
         self._profile = tempfile.mkdtemp(prefix='chromium-')
         self._next = 0
@@ -51,8 +51,7 @@ class Browser:
         self._session = self._call('Target.attachToTarget', targetId=page['targetId'], flatten=True)['sessionId']
         for domain in ('Page', 'Runtime', 'Log'):
             self._call(domain + '.enable')
-        scheme = 'dark' if dark else 'light'
-        self._call('Emulation.setEmulatedMedia', features=[{'name': 'prefers-color-scheme', 'value': scheme}])
+        self.prefer('light')
         self._call('Emulation.setDeviceMetricsOverride', width=width, height=height, deviceScaleFactor=1,
                    mobile=False)
 
@@ -80,6 +79,10 @@ class Browser:
                 return
             time.sleep(0.1)
         raise AssertionError('not ready: %s' % (self.errors or ready))
+
+    def prefer(self, scheme):
+        """Pages see that their reader wants them 'light' or 'dark'."""
+        self._call('Emulation.setEmulatedMedia', features=[{'name': 'prefers-color-scheme', 'value': scheme}])
 
     def evaluate(self, expression):
         answer = self._call('Runtime.evaluate', expression=expression, returnByValue=True, awaitPromise=True)

@@ -152,7 +152,7 @@ class BodyPassageCheck {
       }
     }
     putBodies((view.index + 1) / std::round(m_dt / double(view.length)), places);
-    m_passages += count(m_places, places);
+    if (m_passages <= PassageCheck::kMany) m_passages += count(m_places, places);
     m_places = std::move(places);
   }
 

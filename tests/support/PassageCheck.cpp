@@ -22,10 +22,9 @@ struct Box {
 };
 
 bool overlap(const Box& a, const Box& b) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (a.low[axis] > b.high[axis] || b.low[axis] > a.high[axis]) return false;
-  }
-  return true;
+  bool doThey = true;  // without branches, which nobody could foresee
+  for (int axis = 0; axis < 3; ++axis) doThey = doThey & (a.low[axis] <= b.high[axis]) & (b.low[axis] <= a.high[axis]);
+  return doThey;
 }
 
 /// A part of a mesh, where it goes.

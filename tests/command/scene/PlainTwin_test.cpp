@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -18,7 +19,7 @@ using command::CostWorld;
 using command::Scene;
 using command::SceneWorld;
 
-constexpr int steps = 200;
+constexpr double duration = 0.6;      // [s]
 constexpr double length = 1.6;        // of the curtain [m]
 constexpr double lowestAtRest = 0.3;  // [m]
 // Bullet's own springs are as soft as its explicit world needs them in this scene's substeps; without any the curtain
@@ -47,6 +48,8 @@ double lowestOf(const SceneWorld& world) {
   return lowest;
 }
 
+int stepsOf(const Scene& scene) { return static_cast<int>(std::lround(duration / scene.step)); }
+
 void expectHangs(const SceneWorld& world) {
   EXPECT_TRUE(world.isFinite());
   EXPECT_EQ(world.blowUp().value_or(""), "");
@@ -56,7 +59,7 @@ void expectHangs(const SceneWorld& world) {
 TEST(PlainTwin, OfAClothThatHookeSpringsHoldHangsInBulletsOwn) {
   const Scene scene = curtain();
   SceneWorld plain(scene, SceneWorld::Kind::plainBullet);
-  for (int i = 0; i < steps; ++i) plain.step();
+  for (int i = 0; i < stepsOf(scene); ++i) plain.step();
   expectHangs(plain);
 }
 
@@ -84,7 +87,7 @@ TEST(CostWorld, WithoutHookeSpringsAClothHangsInBulletsOwn) {
   const Scene scene = inBulletsSteps();
   CostWorld idle = CostWorld::idle(scene);
   CostWorld without = CostWorld::timed(scene, "hooke_springs");
-  for (int i = 0; i < steps; ++i) {
+  for (int i = 0; i < stepsOf(scene); ++i) {
     idle.step();
     without.step();
   }
