@@ -16,6 +16,10 @@ namespace reality {
 Plan planAbsorption(const std::string& file);
 /// Height of water in hanging strips of sock knit: Diffusion and Seepage.
 Plan planWicking(const std::string& file);
+/// The same, with Seepage's speed kept in proportion to the diffusivity, as docs/fabrics.md says.
+Plan planWickingInBalance(const std::string& file);
+/// The same, with a seepage speed that is fitted to one of the cloths, without that one.
+Plan planWickingOfAKnit(const std::string& file);
 /// Mass of two shirts on a line: Drying, of each by how it began.
 Plan planShirts(const std::string& file);
 /// The same, of cotton by what wool came to.

@@ -75,8 +75,8 @@ std::string readingsText(const std::vector<Sample>& samples, const Group& group)
 
 std::string rowOf(const std::string& name, const fit::Estimate* parameter, const Errors& fitted,
                   const Errors& predicted) {
-  const std::string value =
-      parameter == nullptr ? "" : format("%.3g +- %.1g", parameter->value, parameter->standardError);
+  std::string value = parameter == nullptr ? "" : format("%.3g", parameter->value);
+  if (parameter != nullptr) value += parameter->isTold() ? format(" +- %.1g", parameter->standardError) : ", not told";
   return format("| %s | %s | %.1f %% | %.2g | %.1f %% | %.2g | %+.1f %% |\n", name.c_str(), value.c_str(),
                 100 * fitted.ofRange, fitted.ofUncertainty, 100 * predicted.ofRange, predicted.ofUncertainty,
                 100 * predicted.bias);

@@ -30,7 +30,7 @@ const std::vector<fit::Unknown>& unknowns() {
 
 TEST(LeastSquares, FindsWhatTheReadingsWereMadeOf) {
   const fit::Fit fit = fit::fitLeastSquares(unknowns(), powerLaw, {powerLaw({3.5, 0.4}), {}});
-  // Levenberg and Marquardt's stop at relative changes of 1e-6.
+  // The search ends when it moves by 1e-5, and is nearer than that by then.
   EXPECT_NEAR(fit.estimates[0].value, 3.5, 1e-5);
   EXPECT_NEAR(fit.estimates[1].value, 0.4, 1e-5);
   EXPECT_TRUE(fit.estimates[0].isTold() && fit.estimates[1].isTold());
@@ -52,7 +52,7 @@ TEST(LeastSquares, TwoOfThreeFitsAreWithinOneStandardError) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 0.05);
   int within[2] = {0, 0};
-  constexpr int fits = 100;
+  constexpr int fits = 50;
   for (int i = 0; i < fits; ++i) {
     std::vector<double> readings = powerLaw({2, 0.5});
     for (double& reading : readings) reading += noise(random);
@@ -60,10 +60,10 @@ TEST(LeastSquares, TwoOfThreeFitsAreWithinOneStandardError) {
     within[0] += std::fabs(fit.estimates[0].value - 2) < fit.estimates[0].standardError;
     within[1] += std::fabs(fit.estimates[1].value - 0.5) < fit.estimates[1].standardError;
   }
-  // 68 % of 100 with a deviation of 4.7; errors that were scaled up by unlucky chi squared make it a little more.
+  // 68 % of 50 with a deviation of 3.3; errors that were scaled up by unlucky chi squared make it a little more.
   for (const int count : within) {
-    EXPECT_GT(count, 54);
-    EXPECT_LT(count, 88);
+    EXPECT_GT(count, 24);
+    EXPECT_LT(count, 46);
   }
 }
 
