@@ -75,9 +75,9 @@ std::vector<double> valuesOf(const Fit& fit) {
 
 command::PlotSeries lawOf(const Task& task, const Fit& fit) {
   using Mark = command::PlotSeries::Mark;
-  if (!task.curve) return seriesOf("fitted", Mark::points, colours::orange, task.at, fit.model);
+  if (!task.curve) return seriesOf("law, fitted", Mark::points, colours::orange, task.at, fit.model);
   const std::vector<double> places = evenly(task.at.back());
-  return seriesOf("fitted", Mark::line, colours::orange, places, task.curve(valuesOf(fit), places));
+  return seriesOf("law, fitted", Mark::line, colours::orange, places, task.curve(valuesOf(fit), places));
 }
 
 command::Plot plotOver(const Task& task, const std::string& suffix, const std::string& title) {
@@ -144,10 +144,11 @@ std::string textOf(const Task& task, const Fit& fit) {
 std::vector<command::Plot> plotsOf(const Task& task, const Fit& fit) {
   using Mark = command::PlotSeries::Mark;
   command::Plot plot = plotOver(task, "", task.law);
-  plot.series = {lawOf(task, fit), seriesOf("measured", Mark::points, colours::blue, task.at, task.readings.values)};
+  plot.series = {lawOf(task, fit),
+                 seriesOf("readings, measured", Mark::points, colours::blue, task.at, task.readings.values)};
   command::Plot residuals = plotOver(task, "_residuals", "What the fit leaves: measured less fitted");
   residuals.series = {seriesOf("0", Mark::reference, colours::black, {0, task.at.back()}, {0, 0}),
-                      seriesOf("residual", Mark::points, colours::blue, task.at, residualsOf(task, fit))};
+                      seriesOf("measured less fitted", Mark::points, colours::blue, task.at, residualsOf(task, fit))};
   return {plot, residuals};
 }
 
