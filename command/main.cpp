@@ -6,7 +6,9 @@
 #include "command/cli/PrecisionProgram.h"
 #include "command/cost/CostCommand.h"
 #include "command/fall/FallCommand.h"
+#include "command/fit/FitCommand.h"
 #include "command/plot/PlotCommand.h"
+#include "command/reality/RealityCommand.h"
 #include "command/render/ExportCommand.h"
 #include "command/render/RenderCommand.h"
 #include "command/run/RunCommand.h"
@@ -40,15 +42,17 @@ const char* const examples = R"(Examples:
   wetcloth validate *.json                              check scenes without running them
   wetcloth ccd queries.csv.gz --method exact            collision checks against exact answers
   wetcloth stability --group winds                      hard cases, and how near they come to what physics allows
+  wetcloth reality --study shirts --out reality         the models beside what others have measured
+  wetcloth fit mine.csv --of drying                     your own measurements as a cloth for a scene
 
 Exit status: 0 done; 1 the run failed; 2 bad usage or bad input, with one line on standard error.)";
 
 void runProgram(int count, char** arguments) {
   // In the order of the help.
-  CommandLine line(
-      {addRunCommand, addRenderCommand, addFallCommand, addCostCommand, accuracy::addAccuracyCommand, addPlotCommand,
-       addExportCommand, viewer::addViewCommand, addValidateCommand, addCcdCommand, stability::addStabilityCommand},
-      examples);
+  CommandLine line({addRunCommand, addRenderCommand, addFallCommand, addCostCommand, accuracy::addAccuracyCommand,
+                    addPlotCommand, addExportCommand, viewer::addViewCommand, addValidateCommand, addCcdCommand,
+                    stability::addStabilityCommand, reality::addRealityCommand, fit::addFitCommand},
+                   examples);
   const Command* const command = line.read(count, arguments);
   if (command == nullptr) return;
   if (command->precision) continueIn(command->precision(), arguments);

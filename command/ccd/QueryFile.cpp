@@ -3,13 +3,13 @@
 
 #include "command/ccd/Gunzip.h"
 #include "command/cli/Errors.h"
+#include "command/cli/ShownField.h"
 #include "command/cli/TextFile.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 #include <string_view>
@@ -28,19 +28,6 @@ const std::vector<std::string>& columnNames() {
     return all;
   }();
   return names;
-}
-
-/// A field for an error message, whatever it has in it.
-std::string shown(std::string_view field) {
-  constexpr std::size_t longest = 40;
-  std::string text = "\"";
-  for (const char character : field.substr(0, longest)) {
-    const unsigned char byte = static_cast<unsigned char>(character);
-    char hex[8];
-    std::snprintf(hex, sizeof hex, "\\x%02x", static_cast<unsigned>(byte));
-    text += byte >= 0x20 && byte < 0x7f ? std::string(1, character) : hex;
-  }
-  return text + (field.size() > longest ? "...\"" : "\"");
 }
 
 /// The lines of a file one after the other, and complaints about where in them something is wrong.
@@ -68,7 +55,7 @@ class Lines {
   /// @param column counted from 0
   [[noreturn]] void reject(std::size_t column, std::string_view field, const std::string& complaint) const {
     throw InputError(m_file + ":" + std::to_string(m_number) + ": column " + std::to_string(column + 1) + " (" +
-                     columnNames()[column] + "): " + shown(field) + ": " + complaint);
+                     columnNames()[column] + "): " + shownField(field) + ": " + complaint);
   }
 
  private:

@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 /// From the lowest: each includes itself and those before it. main.cpp is above all of them.
 const std::vector<std::string>& folders() {
-  static const std::vector<std::string> all{"cli",    "timing", "pictures", "pictures/gl", "scene",
-                                            "ccd",    "fall",   "plot",     "run",         "cost",
-                                            "render", "viewer", "accuracy", "stability"};
+  static const std::vector<std::string> all{"cli",    "timing",   "measured",  "pictures", "pictures/gl", "scene",
+                                            "ccd",    "fall",     "plot",      "run",      "cost",        "render",
+                                            "viewer", "accuracy", "stability", "fit",      "reality"};
   return all;
 }
 

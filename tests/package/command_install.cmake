@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Zlib
-# The installed command, moved, brings its scenes, their schema and its queries, and finds them from any folder.
+# The installed command, moved, brings its scenes, their schema, its queries and its measurements, and finds them from any folder.
 include("${CMAKE_CURRENT_LIST_DIR}/package_test.cmake")
 
 set(prefix "${WORK_DIR}/prefix")
@@ -13,6 +13,8 @@ set(command "${CMAKE_COMMAND}" -E chdir "${WORK_DIR}" "${prefix}-moved/bin/wetcl
 run(${command} validate hanging_towel.json)
 run(${command} accuracy --study collision --quick --json -)
 must_match("${output}" "\"collision")
+run(${command} reality --study sheet --json -)
+must_match("${output}" "fall_a4_sheet_2013")
 
 # Nothing in the programs says where they were built from.
 file(GLOB programs "${prefix}-moved/bin/*")

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Zlib
+#include "command/fit/StripHeights.h"
+#include "command/fit/Task.h"
+
+#include "command/cli/Errors.h"
+
+#include <algorithm>
+
+namespace fit {
+
+Task wickingTask(const command::MeasuredTable& table, const wetcloth::Fabric& fabric) {
+  using Allowed = command::MeasuredTable::Allowed;
+  Task task;
+  task.name = "wicking";
+  task.law = "height of the front by Diffusion and Seepage";
+  task.x = {"time_s", "time [s]"};
+  task.y = {"height_m", "height of the front above the water [m]"};
+  table.requireRows(3, "to fit 2 numbers");
+  task.at = table.increasing("time_s", Allowed::positive);
+  task.readings = readingsOf(table, "height_m", "height_sd_m");
+  const double highest = *std::max_element(task.readings.values.begin(), task.readings.values.end());
+  if (!(highest > 0)) throw command::InputError(table.file() + ": height_m is 0 in every row");
+  const double seepage = wetcloth::Seepage::Parameters{}.speed;
+  task.unknowns = {
+      {"diffusivity_m2_s", highest * highest / task.at.back(), wetcloth::Diffusion::Parameters{}.warpDiffusivity},
+      {"seepage_speed_m_s", seepage, seepage}};
+  task.roughness = stripRoughness;
+  task.curve = [highest](const std::vector<double>& unknowns, const std::vector<double>& times) {
+    return stripHeights({unknowns[0], unknowns[1], highest}, times);
+  };
+  task.predict = [times = task.at, curve = task.curve](const std::vector<double>& unknowns) {
+    return curve(unknowns, times);
+  };
+  task.cloth = [fabric](const std::vector<Estimate>& estimates) -> nlohmann::ordered_json {
+    return {
+        {"fabric", fabric.name},
+        {"effects",
+         {{"diffusion", {{"warp_diffusivity_m2_s", estimates[0].value}, {"weft_diffusivity_m2_s", estimates[0].value}}},
+          {"seepage", {{"speed_m_s", estimates[1].value}}}}}};
+  };
+  return task;
+}
+
+}  // namespace fit
