@@ -13,6 +13,7 @@ namespace reality {
 namespace {
 
 constexpr double frontResolution = 0.0008;  // [m]
+constexpr double heightOfBalance = 0.1;     // of the default diffusion and seepage [m]
 
 /// Both numbers fitted to this cloth by `wetcloth fit` come to a seepage speed of 8.0e-4 +- 0.6e-4 m/s.
 const char* const clothOfSeepage = "108 nylon flat ID";
@@ -98,8 +99,11 @@ Plan planWicking(const std::string& file) {
 }
 
 Plan planWickingInBalance(const std::string& file) {
-  const double rise = wetcloth::Diffusion::Parameters{}.warpDiffusivity / wetcloth::Seepage::Parameters{}.speed;
-  Plan plan = planOfStrips(file, [rise](double diffusivity) { return diffusivity / rise; });
+  Plan plan = planOfStrips(file, [](double diffusivity) {
+    wetcloth::Diffusion::Parameters diffusion;
+    diffusion.warpDiffusivity = diffusion.weftDiffusivity = diffusivity;
+    return wetcloth::seepageInBalance(diffusion, heightOfBalance).speed;
+  });
   plan.name = "wicking_balance";
   plan.title = "The same strips, with a seepage that grows with the diffusivity";
   plan.model = "Immersion, Diffusion and Seepage, whose speed is kept in proportion, so that both balance over 0.1 m";
