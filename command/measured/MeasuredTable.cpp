@@ -72,7 +72,7 @@ const char* textOf(MeasuredTable::Allowed allowed) {
   return "must be a finite number";
 }
 
-bool isAllowed(double number, MeasuredTable::Allowed allowed) {
+bool isAllowedNumber(double number, MeasuredTable::Allowed allowed) {
   if (!std::isfinite(number)) return false;
   if (allowed == MeasuredTable::Allowed::positive) return number > 0;
   return allowed == MeasuredTable::Allowed::any || number >= 0;
@@ -164,7 +164,7 @@ std::vector<double> MeasuredTable::numbers(const std::string& column, Allowed al
     char* end = nullptr;
     const double number = std::strtod(cells[i].c_str(), &end);
     const bool isNumber = !cells[i].empty() && end == cells[i].c_str() + cells[i].size();
-    if (!isNumber || !isAllowed(number, allowed)) reject(i, column, textOf(allowed));
+    if (!isNumber || !isAllowedNumber(number, allowed)) reject(i, column, textOf(allowed));
     numbers.push_back(number);
   }
   return numbers;
