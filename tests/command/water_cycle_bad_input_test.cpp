@@ -139,6 +139,15 @@ TEST(WaterCycleBadInput, NumbersOutOfRange) {
   expectRefusedAt(otherScene(), effectsAt + "drying/gust/period_s", 0, "must be finite and > 0");
 }
 
+TEST(WaterCycleBadInput, SeepageThatCannotBeInBalance) {
+  Json scene = goodScene();
+  expectRefusedAt(scene, effectsAt + "seepage/height_m", 0.1, "it stands for speed_m_s and exponent");
+  scene[Json::json_pointer(effectsAt + "seepage")] = Json::object();
+  expectRefusedAt(scene, effectsAt + "seepage/height_m", 0, "must be finite and > 0");
+  scene[Json::json_pointer(effectsAt.substr(0, effectsAt.size() - 1))].erase("diffusion");
+  expectRefusedAt(scene, effectsAt + "seepage/height_m", 0.1, "there is no \"diffusion\" to be in balance with");
+}
+
 TEST(WaterCycleBadInput, ValuesOfTheWrongType) {
   std::set<std::string> seen;
   for (const Json& scene : {goodScene(), otherScene()}) {

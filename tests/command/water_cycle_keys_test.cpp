@@ -154,7 +154,8 @@ TEST(WaterCycleKeys, TheSchemaKnowsADefaultForEveryKeyThatMayBeLeftOut) {
     for (const auto& [key, property] : definition.at("properties").items()) {
       const Json required = definition.value("required", Json::array());
       const bool isGiven = std::find(required.begin(), required.end(), key) != required.end();
-      const bool isAlternative = key == "sphere" || key == "cone" || key == "gust" || key == "films";
+      const bool isAlternative =
+          key == "sphere" || key == "cone" || key == "gust" || key == "films" || key == "height_m";
       EXPECT_EQ(defaults.contains(key), !isGiven && !isAlternative) << effect << "/" << key;
     }
   }
@@ -182,6 +183,15 @@ TEST(WaterCycleKeys, AnotherValueMakesAnotherRun) {
     effect[key.key] = changed(key.key, value);
     EXPECT_NE(hashOf(scene), usual) << key.effect << "/" << key.key << " = " << changed(key.key, value);
   }
+}
+
+TEST(WaterCycleKeys, SeepageMayBeInBalanceWithDiffusion) {
+  const auto hashOfHeight = [](double height) {
+    Json scene = everything();
+    clothOf(scene)["effects"]["seepage"] = {{"height_m", height}};
+    return hashOf(scene);
+  };
+  EXPECT_NE(hashOfHeight(0.1), hashOfHeight(0.05));
 }
 
 TEST(WaterCycleKeys, TheReadersRangesAreTheSchemas) {

@@ -23,12 +23,8 @@ float pattern() {
 
 void main() {
   vec3 towardsEye = normalize(eye.xyz - place);
-  vec3 normal = normalize(across);
+  vec3 normal = seenNormal(towardsEye);
   float facing = dot(normal, towardsEye);
-  if (facing < 0.0) {
-    normal = -normal;
-    facing = -facing;
-  }
   float wet = clamp(saturation, 0.0, 1.0);
   float threads = pattern();
   vec3 albedo = mix(dryColour, wetColour, wet) * threads;
