@@ -13,6 +13,7 @@ const std::vector<std::pair<std::string, CarryOutStudies>>& studyNames() {
                                                                           {"mesh", studyMesh},
                                                                           {"collision", studyCollision},
                                                                           {"guard", studyGuard},
+                                                                          {"measurement", studyMeasurement},
                                                                           {"paper", studyPaper}};
   return names;
 }

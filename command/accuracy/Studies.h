@@ -29,6 +29,8 @@ std::vector<Study> studyMesh(const Effort& effort, const TellProgress& tell);
 std::vector<Study> studyCollision(const Effort& effort, const TellProgress& tell);
 /// The guard of ClothSolver: how far ahead it looks and how thick layers are, in a heap and a wrung towel.
 std::vector<Study> studyGuard(const Effort& effort, const TellProgress& tell);
+/// What a law costs that is nearer to what was measured: water that rises in a strip.
+std::vector<Study> studyMeasurement(const Effort& effort, const TellProgress& tell);
 /// The paper's own choices against physics.
 std::vector<Study> studyPaper(const Effort& effort, const TellProgress& tell);
 
