@@ -85,9 +85,10 @@ class WETCLOTH_EXPORT Seepage : public Effect {
 
 /// Seepage that belongs to a diffusion, since both are parts of one law: Darcy's flow under the gradient of a capillary
 /// head (Richards 1931; exponents of Brooks & Corey 1964 for pores that are alike). Where both balance in a strip that
-/// stands in water, the saturation at the height z above it is exp(-z / height). So `speed` is the mean diffusivity
-/// over that height, and `exponent` the diffusion's plus 1. Throws std::invalid_argument when the height is not finite
-/// and > 0, or the diffusion is one that its constructor would refuse.
+/// stands in water, the saturation at the height z above it is exp(-z / height), if warp and weft are alike. So `speed`
+/// is their diffusivities' geometric mean over that height, and `exponent` the diffusion's plus 1. Throws
+/// std::invalid_argument when the height is not finite and > 0, or the diffusion is one that its constructor would
+/// refuse.
 /// @param height  [m], > 0; about that to which water rises in the end: 0.1 for the defaults
 WETCLOTH_EXPORT Seepage::Parameters seepageInBalance(const Diffusion::Parameters& diffusion, double height);
 

@@ -28,14 +28,34 @@ void CoincidentNodes::find(const std::vector<btVector3>& places) {
     const btVector3& q = places[toSize(b)];
     return std::make_tuple(p.x(), p.y(), p.z(), a) < std::make_tuple(q.x(), q.y(), q.z(), b);
   });
-  m_first.resize(places.size());
-  std::iota(m_first.begin(), m_first.end(), 0);
+  if (m_first.empty()) fitTo(places.size());
+  const auto leastOf = [this](int node) {
+    while (m_first[toSize(node)] != node) node = m_first[toSize(node)];
+    return node;
+  };
   for (std::size_t k = 1; k < order.size(); ++k) {
-    const int last = order[k - 1];
-    if (areEqual(places[toSize(order[k])], places[toSize(last)])) m_first[toSize(order[k])] = m_first[toSize(last)];
+    if (!areEqual(places[toSize(order[k])], places[toSize(order[k - 1])])) continue;
+    const auto [less, more] = std::minmax({leastOf(order[k - 1]), leastOf(order[k])});
+    m_first[toSize(more)] = less;
   }
+  for (int& first : m_first) first = m_first[toSize(first)];
   findJoined();
   if (m_joined.empty()) m_first.clear();
+}
+
+void CoincidentNodes::keepOf(std::size_t nodeCount) {
+  if (m_first.empty()) return;
+  if (nodeCount < m_first.size()) m_first.clear();
+  if (!m_first.empty()) fitTo(nodeCount);
+  m_left.clear();
+  findJoined();
+}
+
+// New nodes are their own.
+void CoincidentNodes::fitTo(std::size_t nodeCount) {
+  const std::size_t before = m_first.size();
+  m_first.resize(nodeCount);
+  std::iota(m_first.begin() + static_cast<std::ptrdiff_t>(before), m_first.end(), static_cast<int>(before));
 }
 
 void CoincidentNodes::setEdges(const std::vector<GuardMesh::Edge>& edges, const std::vector<btVector3>& places) {
@@ -95,8 +115,9 @@ void CoincidentNodes::transferState(StateArchive& archive, int nodeCount) {
   archive.local(areThere);
   std::vector<int> first(areThere == 0 ? 0 : toSize(nodeCount));
   if (archive.isSaving()) first = m_first;
-  archive.each(first, [&archive, nodeCount](int& node) {
-    node = archive.place(node, nodeCount, "a node that stands where another does");
+  int number = 0;  // none is one with a later one
+  archive.each(first, [&archive, &number](int& node) {
+    node = archive.place(node, ++number, "a node that stands where another does");
   });
   if (!archive.isRestoring()) return;
   m_first = first;

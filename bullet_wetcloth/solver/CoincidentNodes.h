@@ -21,7 +21,10 @@ class StateArchive;
 /// neighbours. Sides that only slide over each other have not come apart; held so they would hook into each other.
 class CoincidentNodes {
  public:
-  /// Those at places that are equal.
+  /// The body has another mesh, whose first nodes are those that were known if there are no fewer: Bullet's cuts add
+  /// theirs at the end.
+  void keepOf(std::size_t nodeCount);
+  /// Those at places that are equal, and those that count as one already.
   void find(const std::vector<btVector3>& places);
   /// They have come apart when they are a tenth of the shortest edge from each other that either has, where all edges
   /// are as long as between these places.
@@ -57,6 +60,7 @@ class CoincidentNodes {
     int other;  // the first that it had
     int node;
   };
+  void fitTo(std::size_t nodeCount);
   void findJoined();
   void endSeparating();
   btScalar apartOf(int node) const { return m_apart[static_cast<std::size_t>(node)]; }

@@ -73,7 +73,7 @@ void PackedCloth::takeMesh() {
   m_grid = slots.grid;
   m_guardMesh.reset();
   m_guardPlaces.clear();
-  m_coincident = {};
+  m_coincident.keepOf(toSize(m_body.m_nodes.size()));
   m_facesByNodes.reset();
   m_nodes.reset(slots);
   m_links.reset(m_body, slots);

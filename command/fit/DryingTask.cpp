@@ -33,7 +33,9 @@ double firstRate(const Task& task) {
 nlohmann::ordered_json dryingCloth(const wetcloth::Fabric& fabric, const std::vector<Estimate>& estimates) {
   const double most = estimates[initial].value;
   const double capacity = std::max(fabric.capacity, most);
-  const wetcloth::Drying::Parameters air = airThatDries(estimates[rate].value * fabric.arealDensity);
+  // Below the critical water only rate over critical water matters, and a cloth holds no more than its capacity.
+  const double shareOfRate = std::min(1.0, capacity / estimates[critical].value);
+  const wetcloth::Drying::Parameters air = airThatDries(shareOfRate * estimates[rate].value * fabric.arealDensity);
   nlohmann::ordered_json drying;
   drying["self_cooling"] = air.selfCooling;
   const auto speed = static_cast<double>(air.air.at(btVector3(0, 0, 0), 0).length());

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,7 @@ std::vector<std::string> fabricNames() {
   return names;
 }
 
-void writePlots(const std::string& directory, const Task& task, const Fit& fit) {
-  command::PlotFiles files(directory);
+void writePlots(command::PlotFiles& files, const Task& task, const Fit& fit) {
   for (const command::Plot& plot : plotsOf(task, fit)) files.write(plot);
   if (files.hasPictures()) return;
   std::cerr << "wetcloth: no gnuplot, so no pictures, only tables (Debian: apt install gnuplot-nox)\n";
@@ -41,9 +41,11 @@ void fitToFile(const FitOptions& options) {
   command::JsonOutput output(options.json);
   const command::MeasuredTable table(options.file);
   const Task task = command::valueOf(taskNames(), options.of)(table, wetcloth::Fabric::byName(options.fabric));
+  std::optional<command::PlotFiles> plots;  // complains before the fit, which may take its time
+  if (!options.directory.empty()) plots.emplace(options.directory);
   const Fit fit = fitLeastSquares(task.unknowns, task.predict, task.readings, task.roughness);
   if (!output.ownsStandardOutput()) std::fputs(textOf(task, fit).c_str(), stdout);
-  if (!options.directory.empty()) writePlots(options.directory, task, fit);
+  if (plots) writePlots(*plots, task, fit);
   nlohmann::ordered_json json = jsonOf(task, fit);
   json["file"] = options.file;
   output.write(json);

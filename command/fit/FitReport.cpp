@@ -131,9 +131,12 @@ std::string textOf(const Task& task, const Fit& fit) {
     text += (remark.empty() ? "" : " " + remark) + "\n";
   }
   const double rms = rootMeanSquare(residualsOf(task, fit));
-  std::snprintf(line, sizeof line, "  residuals: root mean square %.3g, %.2g %% of the readings' range", rms,
-                100 * rms / rangeOf(task.readings.values));
+  std::snprintf(line, sizeof line, "  residuals: root mean square %.3g", rms);
   text += line;
+  if (const double range = rangeOf(task.readings.values); range > 0) {
+    std::snprintf(line, sizeof line, ", %.2g %% of the readings' range", 100 * rms / range);
+    text += line;
+  }
   if (!task.readings.uncertainties.empty()) {
     std::snprintf(line, sizeof line, "; chi squared %.2g for each degree of freedom", fit.reducedChiSquared);
     text += line;
@@ -146,8 +149,9 @@ std::vector<command::Plot> plotsOf(const Task& task, const Fit& fit) {
   command::Plot plot = plotOver(task, "", task.law);
   plot.series = {lawOf(task, fit),
                  seriesOf("readings, measured", Mark::points, colours::blue, task.at, task.readings.values)};
+  const double last = *std::max_element(task.at.begin(), task.at.end());
   command::Plot residuals = plotOver(task, "_residuals", "What the fit leaves: measured less fitted");
-  residuals.series = {seriesOf("0", Mark::reference, colours::black, {0, task.at.back()}, {0, 0}),
+  residuals.series = {seriesOf("0", Mark::reference, colours::black, {0, last}, {0, 0}),
                       seriesOf("measured less fitted", Mark::points, colours::blue, task.at, residualsOf(task, fit))};
   return {plot, residuals};
 }

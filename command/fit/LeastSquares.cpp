@@ -18,8 +18,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double origin = 10;        // of the logarithms, so that steps and their bounds are of one size in all of them
-constexpr double raisesClearly = 4;  // of chi squared: an interval of 95 %
+constexpr double origin = 10;  // of the logarithms, so that steps and their bounds are of one size in all of them
 constexpr double leastScatter = 1e-6;  // of the readings' range, that they are taken to be rounded to
 
 /// The residuals as Eigen's solver asks for them: over the logarithms of the unknowns that are free.
@@ -105,7 +104,11 @@ class Search {
     }
     VectorXd left;
     residuals(logarithms, left);
-    return {residuals.valuesAt(logarithms), left.squaredNorm()};
+    const double chiSquared = left.squaredNorm();
+    if (!std::isfinite(chiSquared)) {
+      throw command::RunError("wetcloth: chi squared is not finite, the uncertainties are too small");
+    }
+    return {residuals.valuesAt(logarithms), chiSquared};
   }
 
   /// With one more of the values set.
@@ -145,6 +148,14 @@ double unitOf(double chiSquared, std::size_t freedom, const Readings& readings) 
   return std::max(reduced, rounding * rounding);
 }
 
+/// By how much chi squared is raised at the ends of an interval of 95 %: 4, or Student's t squared where its unit is
+/// told by the readings' scatter, which few of them tell badly. Within 5 %.
+double clearRaise(std::size_t freedom, const Readings& readings) {
+  if (!readings.uncertainties.empty()) return 4;
+  constexpr double ofFew[] = {161, 18.5, 10.1};
+  return freedom <= 3 ? ofFew[freedom - 1] : 4 * (1 + 2.6 / static_cast<double>(freedom - 1));
+}
+
 /// The fit as it goes: which unknowns are still free.
 class Telling {
  public:
@@ -157,6 +168,9 @@ class Telling {
     std::vector<double> start;
     for (const Unknown& unknown : unknowns) start.push_back(unknown.start);
     m_best = search.from(start, m_isFree);
+    m_least = m_best.chiSquared;
+    m_unit = unitOf(m_least, freedomLeft(), readings);
+    m_clear = clearRaise(freedomLeft(), readings);
   }
 
   /// Sets the unknown that is told worst; false when all that are free are told.
@@ -171,7 +185,7 @@ class Telling {
         worst = i;
       }
     }
-    if (least > raisesClearly) return false;
+    if (least > m_clear) return false;
     settle(worst);
     return true;
   }
@@ -196,23 +210,22 @@ class Telling {
     return m_readings.values.size() - static_cast<std::size_t>(std::count(m_isFree.begin(), m_isFree.end(), true));
   }
   double raisedBy(std::size_t which, double value) const {
-    const double unit = unitOf(m_best.chiSquared, freedomLeft(), m_readings);
-    return (m_search.with(m_best, m_isFree, which, value).chiSquared - m_best.chiSquared) / unit;
+    return (m_search.with(m_best, m_isFree, which, value).chiSquared - m_best.chiSquared) / m_unit;
   }
   /// By how much the less of half and twice the value raises chi squared.
   double look(std::size_t which) {
     m_estimates[which].fitted = m_best.values[which];
     const double half = raisedBy(which, m_best.values[which] / 2);
     const double twice = raisedBy(which, m_best.values[which] * 2);
-    m_estimates[which].isNotLess = half > raisesClearly;
-    m_estimates[which].isNotMore = twice > raisesClearly;
+    m_estimates[which].isNotLess = half > m_clear;
+    m_estimates[which].isNotMore = twice > m_clear;
     return std::min(half, twice);
   }
   void settle(std::size_t which) {
     const double usual = m_unknowns[which].usual;
-    m_estimates[which].isUsual = raisedBy(which, usual) <= raisesClearly;
-    const double value = m_estimates[which].isUsual ? usual : m_best.values[which];
-    m_best = m_search.with(m_best, m_isFree, which, value);
+    const Minimum atUsual = m_search.with(m_best, m_isFree, which, usual);
+    m_estimates[which].isUsual = atUsual.chiSquared - m_least <= m_clear * m_unit;
+    m_best = m_estimates[which].isUsual ? atUsual : m_search.with(m_best, m_isFree, which, m_best.values[which]);
     m_isFree[which] = false;
   }
 
@@ -222,6 +235,10 @@ class Telling {
   std::vector<bool> m_isFree;
   std::vector<Estimate> m_estimates;
   Minimum m_best;
+  // With all of them free, so that several usual values together do not fit worse than one may.
+  double m_least;
+  double m_unit;
+  double m_clear;
 };
 
 }  // namespace

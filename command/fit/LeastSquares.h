@@ -47,10 +47,11 @@ using Predict = std::function<std::vector<double>(const std::vector<double>& unk
 ///
 /// Standard errors are those of the linearised model, times the root of reducedChiSquared where that is greater than 1
 /// or the uncertainties are not stated. An unknown is told when both half and twice its value, all others fitted anew,
-/// raise chi squared by more than 4: when its interval of 95 % lies within a factor of 2. Of those that are not told,
-/// the worst is set to its usual value where that fits as well, else left, and the others are fitted anew.
+/// raise chi squared by more than 4, or Student's t squared when the uncertainties are not stated: when its interval of
+/// 95 % lies within a factor of 2. Of those that are not told, the worst is set to its usual value where that fits as
+/// well, else left, and the others are fitted anew.
 /// Throws command::InputError when there are no more readings than unknowns; command::RunError when the model gives
-/// what is not finite.
+/// what is not finite, or chi squared is not.
 /// @param roughness  over how much of a logarithm the model is differenced: more than its rounding and its mesh make of
 ///     it. The search ends when it moves by a thousandth of that.
 Fit fitLeastSquares(const std::vector<Unknown>& unknowns, const Predict& predict, const Readings& readings,

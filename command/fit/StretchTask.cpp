@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "command/fit/Task.h"
 
+#include <bullet_wetcloth/bullet_wetcloth.h>
+
 #include <algorithm>
 
 namespace fit {

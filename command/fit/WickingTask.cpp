@@ -4,9 +4,16 @@
 
 #include "command/cli/Errors.h"
 
+#include <bullet_wetcloth/bullet_wetcloth.h>
+
 #include <algorithm>
 
 namespace fit {
+namespace {
+
+constexpr double longestOverFirst = 1000;
+
+}  // namespace
 
 Task wickingTask(const command::MeasuredTable& table, const wetcloth::Fabric& fabric) {
   using Allowed = command::MeasuredTable::Allowed;
@@ -17,6 +24,10 @@ Task wickingTask(const command::MeasuredTable& table, const wetcloth::Fabric& fa
   task.y = {"height_m", "height of the front above the water [m]"};
   table.requireRows(3, "to fit 2 numbers");
   task.at = table.increasing("time_s", Allowed::positive);
+  // The strip is run in steps of an eighth of the first time: a search would take hours.
+  if (task.at.back() > longestOverFirst * task.at.front()) {
+    throw command::InputError(table.file() + ": time_s of the last row must be at most 1000 times that of the first");
+  }
   task.readings = readingsOf(table, "height_m", "height_sd_m");
   const double highest = *std::max_element(task.readings.values.begin(), task.readings.values.end());
   if (!(highest > 0)) throw command::InputError(table.file() + ": height_m is 0 in every row");

@@ -37,9 +37,11 @@ Json jsonOf(const Sample& sample, const std::vector<double>& model) {
 }
 
 Json jsonOf(const Plan& plan, const std::vector<Sample>& samples, const Group& group) {
-  Json json{{plan.parameter, group.parameter.value}, {"standard_error", group.parameter.standardError},
-            {"is_told", group.parameter.isTold()},   {"fitted", jsonOf(group.fitted)},
-            {"predicted", jsonOf(group.predicted)},  {"samples", Json::array()}};
+  Json json{{plan.parameter, group.parameter.value}, {"is_told", group.parameter.isTold()}};
+  if (group.parameter.isTold()) json["standard_error"] = group.parameter.standardError;
+  json["fitted"] = jsonOf(group.fitted);
+  json["predicted"] = jsonOf(group.predicted);
+  json["samples"] = Json::array();
   for (std::size_t i = 0; i < samples.size(); ++i) json["samples"].push_back(jsonOf(samples[i], group.model[i]));
   return json;
 }

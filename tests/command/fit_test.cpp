@@ -112,6 +112,14 @@ TEST(Fit, SaysWhatTheDataCannotTell) {
   EXPECT_NE(critical.at("remark").get<std::string>().find("cannot tell"), std::string::npos);
 }
 
+TEST(Fit, TellsNoShareOfARangeThatIsNone) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("data.csv", "load_n_m,strain\n10,0.01\n10,0.01\n");
+  const Outcome outcome = runWetcloth({"fit", file, "--of", "stretch"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("root mean square 0\n"), std::string::npos) << outcome.out;
+}
+
 TEST(Fit, RefusesBadUsageAndBadData) {
   const TemporaryDirectory directory;
   const std::string file = directory.write("data.csv", "time_s,water_kg_kg\n0,0\n1,wet\n2,1\n");
@@ -121,6 +129,8 @@ TEST(Fit, RefusesBadUsageAndBadData) {
   expectRefusal(runWetcloth({"fit", "--of", "drying"}), {"DATA.csv"});
   expectRefusal(runWetcloth({"fit", file, "--of", "drying", "--fabric", "coton"}), {"--fabric", "\"cotton\""});
   expectRefusal(runWetcloth({"fit", "/nowhere.csv", "--of", "drying"}), {"/nowhere.csv", "no such file"});
+  const std::string good = directory.write("good.csv", soaking());
+  expectRefusal(runWetcloth({"fit", good, "--of", "absorption", "--out", good}), {"--out", "must be a directory"});
 }
 
 }  // namespace

@@ -70,6 +70,22 @@ TEST(CoincidentNodes, CountAsTheFirstOfThem) {
 // As numbers they are equal, and no distance apart.
 TEST(CoincidentNodes, ZeroIsMinusZero) { EXPECT_EQ(found({0.0, -0.0}).first(1), 0); }
 
+TEST(CoincidentNodes, StayOneWhenTheMeshGetsMoreNodes) {
+  CoincidentNodes nodes = found({0, 0, 5});
+  nodes.keepOf(6);
+  nodes.find(along({0, 0.01, 5, 0.01, 7, 5}));
+  const int first[] = {0, 0, 2, 0, 4, 2};
+  for (int k = 0; k < 6; ++k) EXPECT_EQ(nodes.first(k), first[k]);
+}
+
+TEST(CoincidentNodes, AreForgottenWhenTheMeshGetsFewerNodes) {
+  CoincidentNodes nodes = found({0, 0, 5});
+  nodes.keepOf(2);
+  EXPECT_TRUE(nodes.isEmpty());
+  nodes.find(along({0, 1}));
+  EXPECT_EQ(nodes.first(1), 1);
+}
+
 TEST(CoincidentNodes, StayOneAsLongAsTheyAreNear) {
   Star star({0, 0});
   EXPECT_FALSE(star.move({0, 0.09}));

@@ -86,6 +86,28 @@ TEST(LeastSquares, OfAProductOneFactorIsTakenAsUsual) {
   EXPECT_TRUE(fit.estimates[0].value == 4 || fit.estimates[1].value == 4);
 }
 
+// Two readings 20 % apart leave their mean, 1.1 +- 0.1, anywhere within 12.7 of these errors, six of them within 2.6.
+TEST(LeastSquares, FewReadingsDoNotTellTheirScatter) {
+  for (const std::size_t count : {std::size_t(2), std::size_t(6)}) {
+    std::vector<double> readings(count, 1);
+    for (std::size_t i = 1; i < count; i += 2) readings[i] = 1.2;
+    const auto mean = [&](const std::vector<double>& value) { return std::vector<double>(count, value[0]); };
+    EXPECT_EQ(fit::fitLeastSquares({{"mean", 1, 1}}, mean, {readings, {}}).estimates[0].isTold(), count == 6);
+    EXPECT_TRUE(fit::fitLeastSquares({{"mean", 1, 1}}, mean, {readings, std::vector<double>(count, 0.1)})
+                    .estimates[0]
+                    .isTold());
+  }
+}
+
+// Each of two usual values is (0.5 / 0.3)^2 = 2.8 of chi squared away, both together 5.6.
+TEST(LeastSquares, UsualValuesTogetherFitNoWorseThanOneMay) {
+  const auto both = [](const std::vector<double>& values) { return std::vector<double>{values[0], values[1], 5}; };
+  const fit::Fit fit =
+      fit::fitLeastSquares({{"a", 1, 1.5}, {"b", 1, 1.5}}, both, {{1, 1, 5}, std::vector<double>(3, 0.3)});
+  EXPECT_FALSE(fit.estimates[0].isTold() || fit.estimates[1].isTold());
+  EXPECT_NE(fit.estimates[0].isUsual, fit.estimates[1].isUsual);
+}
+
 TEST(LeastSquares, AsksForMoreReadingsThanUnknowns) {
   const auto two = [](const std::vector<double>& values) { return values; };
   EXPECT_THROW(fit::fitLeastSquares(unknowns(), two, {{1, 2}, {}}), command::InputError);
@@ -94,6 +116,11 @@ TEST(LeastSquares, AsksForMoreReadingsThanUnknowns) {
 TEST(LeastSquares, SaysWhenTheModelIsNotFinite) {
   const auto none = [](const std::vector<double>&) { return std::vector<double>(8, std::nan("")); };
   EXPECT_THROW(fit::fitLeastSquares(unknowns(), none, {powerLaw({1, 1}), {}}), command::RunError);
+}
+
+TEST(LeastSquares, SaysWhenChiSquaredIsNotFinite) {
+  EXPECT_THROW(fit::fitLeastSquares(unknowns(), powerLaw, {powerLaw({2, 2}), std::vector<double>(8, 1e-200)}),
+               command::RunError);
 }
 
 }  // namespace

@@ -96,6 +96,24 @@ TEST(DryingTask, ItsAirDriesAtThatRate) {
   }
 }
 
+// With 2 kg/kg it would be critical above what cotton holds, 0.84 kg/kg: less water falls in proportion all the time.
+TEST(DryingTask, ItsClothFallsAsFastWhereTheCriticalWaterIsMoreThanItHolds) {
+  const Task task = taskOf(fit::dryingTask, series("water_kg_kg", 6000, 20, 0, dried));
+  std::vector<Estimate> estimates(3);
+  estimates[0].value = 0.7;
+  estimates[1].value = 2e-3;
+  estimates[2].value = 2;
+  const nlohmann::ordered_json drying = task.cloth(estimates).at("effects").at("drying");
+  EXPECT_EQ(drying.at("critical_saturation"), 1);
+  const wetcloth::Fabric cotton = wetcloth::Fabric::cotton();
+  const wetcloth::Drying::Parameters air;
+  const double rate =
+      air.sides * drying.at("self_cooling").get<double>() *
+      wetcloth::evaporationRate(air.temperature, air.relativeHumidity, drying.at("velocity_m_s").at(0).get<double>());
+  // The speed of the wind is a btScalar.
+  EXPECT_NEAR(rate / (cotton.capacity * cotton.arealDensity), 2e-3 / 2, 1e-8);
+}
+
 TEST(StretchTask, GivesBackStiffnessDryAndWet) {
   const Task task =
       taskOf(fit::stretchTask,
@@ -135,6 +153,7 @@ TEST(FitTasks, RefuseWhatTheyCannotUse) {
   EXPECT_THROW(taskOf(fit::absorptionTask, "time_s,water_kg_kg\n0,0\n2,1\n1,1\n"), InputError) << "back in time";
   EXPECT_THROW(taskOf(fit::dryingTask, "time_s,water_kg_kg\n0,0\n1,0\n2,0\n3,0\n"), InputError) << "dry";
   EXPECT_THROW(taskOf(fit::wickingTask, "time_s,height_m\n0,0\n1,0.1\n2,0.2\n"), InputError) << "at time 0";
+  EXPECT_THROW(taskOf(fit::wickingTask, "time_s,height_m\n1,0.01\n60,0.1\n86400,0.2\n"), InputError) << "too long";
   EXPECT_THROW(taskOf(fit::stretchTask, "load_n_m,strain\n1,0\n2,0\n"), InputError) << "rigid";
   EXPECT_THROW(taskOf(fit::stretchTask, "load_n_m,strain,saturation\n1,1,0\n2,2,1.5\n3,3,1\n"), InputError);
   EXPECT_THROW(taskOf(fit::absorptionTask, "time_s,water_kg_kg,water_sd_kg_kg\n0,0,0\n1,1,1\n2,1,1\n"), InputError);

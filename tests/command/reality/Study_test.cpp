@@ -75,6 +75,15 @@ TEST(RealityStudy, TellsABias) {
   EXPECT_NE(reality::verdictOn(study).find("wrong by 2.6 times"), std::string::npos) << reality::verdictOn(study);
 }
 
+TEST(RealityStudy, TellsNoStandardErrorOfWhatTheDataCannotTell) {
+  Plan plan = proportional(2, 2);
+  EXPECT_TRUE(reality::jsonOf(reality::carryOut(plan, tellNobody)).at("groups")[0].contains("standard_error"));
+  for (double& uncertainty : plan.groups[0][0].uncertainty) uncertainty = 50;
+  const nlohmann::ordered_json json = reality::jsonOf(reality::carryOut(plan, tellNobody)).at("groups")[0];
+  EXPECT_EQ(json.at("is_told"), false);
+  EXPECT_FALSE(json.contains("standard_error"));
+}
+
 TEST(RealityStudy, ModelsMeetWhatTheyHaveMade) {
   struct Case {
     Plan plan;
