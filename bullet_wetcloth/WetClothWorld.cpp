@@ -269,7 +269,7 @@ void WetClothWorld::log(const std::string& message) const {
 void WetClothWorld::save(std::ostream& stream) const {
   requireAttached();
   StateArchive archive(m_world);
-  const_cast<WetClothWorld*>(this)->transferState(archive);  // which changes nothing while saving
+  const_cast<WetClothWorld*>(this)->transferState(archive);  // which changes nothing that the next step would not
   StateEnvelope::write(stream, static_cast<std::uint32_t>(m_world.getWorldType()), archive.bytes());
 }
 
@@ -282,6 +282,7 @@ void WetClothWorld::restore(std::istream& stream) {
 }
 
 void WetClothWorld::transferState(StateArchive& archive) {
+  for (const auto& cloth : m_cloths) cloth->followCut();
   transferWorld(archive, static_cast<btDiscreteDynamicsWorld&>(m_world), softBodies());
   transferSolver(archive);
   archive.value(m_time, m_stepStart);

@@ -356,7 +356,7 @@ void PackedCloth::finish() {
 // --- save and restore -----------------------------------------------------------------------------------------------
 
 void PackedCloth::transferState(StateArchive& archive) {
-  if (!archive.isSaving() && hasNewMesh()) takeMesh();
+  if (hasNewMesh()) takeMesh();  // cut since the last step
   m_nodes.transferState(archive);
   m_links.transferState(archive);
   archive.array(m_weights);

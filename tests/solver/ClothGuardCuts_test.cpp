@@ -237,6 +237,25 @@ TEST(ClothGuardSides, ARestoredRunGoesOnBitForBit) {
   EXPECT_EQ(first.state(), second.state());
 }
 
+// Before the step that sees the cut.
+TEST(ClothGuardSides, AStateThatWasSavedRightAfterACutIsRestored) {
+  GuardScene first;
+  btSoftBody& sheet = first.add(hangingPatch());
+  wetcloth::WetClothWorld wet(first.scene().bullet().world());
+  wet.setLog({});
+  wet.add(sheet);
+  first.step(5);
+  const auto distance = [](const btVector3& x) { return x.y() + btScalar(0.32); };
+  cut(sheet, distance);
+  std::stringstream stream;
+  wet.save(stream);
+  first.step(20);
+  const std::vector<btScalar> places = stateOf(sheet);
+  wet.restore(stream);
+  first.step(20);
+  EXPECT_EQ(stateOf(sheet), places);
+}
+
 // A level sheet whose two halves are held and go where they are told.
 struct Halves {
   explicit Halves(GuardScene& scene) : body(scene.add(patch())) {
