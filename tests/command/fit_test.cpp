@@ -49,11 +49,22 @@ TEST(Fit, TellsParametersResidualsAndPlots) {
   }
 }
 
+// Cloth that only gets drier does not soak; and times since 1970 are no time of a soaking.
+TEST(Fit, WarnsWhereTheLawDoesNotDescribeTheReadings) {
+  const std::string drier = "time_s,water_kg_kg\n1,1.2\n2,0.9\n3,0.5\n4,0.3\n5,0.1\n";
+  EXPECT_NE(fitOf(drier, "absorption").at("warning").get<std::string>().find("time_s, water_kg_kg"), std::string::npos);
+  std::ostringstream since1970;
+  since1970 << "time_s,water_kg_kg\n";
+  for (int t = 0; t <= 30; t += 3) since1970 << 1700000000 + t << "," << 1.2 * -std::expm1(-t / 6.) << "\n";
+  EXPECT_TRUE(fitOf(since1970.str(), "absorption").at("warning").is_string());
+}
+
 TEST(Fit, OfAbsorptionSoaksAsMeasuredInAScene) {
   const Json fit = fitOf(soaking(), "absorption");
   // Three digits of the readings.
   EXPECT_NEAR(fit.at("cloth").at("fabric").at("capacity_kg_per_kg").get<double>(), 1.2, 0.01);
   EXPECT_NEAR(fit.at("cloth").at("fabric").at("time_constant_s").get<double>(), 6, 0.1);
+  EXPECT_TRUE(fit.at("warning").is_null());
   Json scene = sceneWith(fit.at("cloth"));
   scene["cloths"][0]["effects"] = {{"absorption", Json::object()}};
   scene["duration_s"] = 6;
