@@ -344,6 +344,7 @@ void ClothSolver::Impl::takeGuarded(const btAlignedObjectArray<btSoftBody*>& sof
     all.nodes.push_back(nodes);
     all.numbers.push_back(number);
     all.isAnyPlaced = cloth.takePlaced() || nodes.isNew || all.isAnyPlaced;
+    all.isAnyOpening = cloth.separateCoincident() || all.isAnyOpening;
     inContact.push_back(&cloth);
   };
   for (int k = 0; k < softBodies.size(); ++k) {

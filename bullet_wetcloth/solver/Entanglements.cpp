@@ -29,11 +29,15 @@ void Entanglements::begin(const Cloths& cloths, const ClothSolver::Guard& parame
   const bool isUntangling = parameters.untangle && m_known > 0;
   const bool wasPlaced = m_wasPlaced;
   m_wasPlaced = cloths.isAnyPlaced;
-  if (!cloths.isAnyPlaced && !isUntangling) return m_untangling.clear();
+  if (!cloths.isAnyPlaced && !cloths.isAnyOpening && !isUntangling) return m_untangling.clear();
   const long long known = m_known;
   m_known = count(cloths, parameters);
   if (cloths.isAnyPlaced && m_known > (wasPlaced ? known : 0)) {
     tell(cloths, parameters, "where a cloth is new or was put elsewhere", log);
+    m_fewest = m_known;
+    m_noFewer = 0;
+  } else if (cloths.isAnyOpening && m_known > known) {
+    tell(cloths, parameters, "where a cut has opened", log);
     m_fewest = m_known;
     m_noFewer = 0;
   } else if (m_known > 0) {

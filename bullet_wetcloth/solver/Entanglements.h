@@ -20,12 +20,13 @@ class Entanglements {
   /// The cloths of a step.
   struct Cloths {
     std::vector<ClothGuard::Cloth> nodes;
-    std::vector<int> numbers;  ///< of their bodies in the world
-    bool isAnyPlaced = false;  ///< one is new, was cut, or has nodes that were put elsewhere
+    std::vector<int> numbers;   ///< of their bodies in the world
+    bool isAnyPlaced = false;   ///< one is new, was cut, or has nodes that were put elsewhere
+    bool isAnyOpening = false;  ///< nodes of one that counted as one have come apart
     void clear() {
       nodes.clear();
       numbers.clear();
-      isAnyPlaced = false;
+      isAnyPlaced = isAnyOpening = false;
     }
   };
 

@@ -321,14 +321,13 @@ ClothGuard::Cloth PackedCloth::guarded() {
           m_coincident.isEmpty() ? nullptr : &m_coincident};
 }
 
-bool PackedCloth::takePlaced() {
+bool PackedCloth::separateCoincident() {
   const MovingNodes nodes = m_nodes.moving();
   const auto placeOf = [&](int node) {
     const std::size_t slot = toSize(m_nodes.slots()[node]);
     return btVector3(nodes.position[0][slot], nodes.position[1][slot], nodes.position[2][slot]);
   };
-  const bool haveComeApart = m_coincident.separate(placeOf);
-  return m_nodes.takePlaced() || haveComeApart;
+  return m_coincident.separate(placeOf);
 }
 
 std::optional<ClothGuard::Cloth> PackedCloth::standing() {

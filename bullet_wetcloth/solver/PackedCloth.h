@@ -63,9 +63,10 @@ class PackedCloth {
   void setLinkStiffness(const std::vector<btScalar>& factors, unsigned long long revision);
   /// Takes over the nodes, and predicts where they will be. False: the cloth rests in this step.
   bool predict(btScalar dt);
-  /// Whether, since this was asked last, free nodes were put elsewhere or moved without a guard, or nodes that
-  /// counted as one came apart.
-  bool takePlaced();
+  /// Whether, since this was asked last, free nodes were put elsewhere or moved without a guard.
+  bool takePlaced() { return m_nodes.takePlaced(); }
+  /// Whether nodes that counted as one have come apart since this was asked last.
+  bool separateCoincident();
   /// Finds the contacts with a rigid body or a link of a multibody.
   void collide(const btCollisionObjectWrapper& object);
   /// All small steps.

@@ -237,6 +237,24 @@ TEST(ClothGuardSides, ARestoredRunGoesOnBitForBit) {
   EXPECT_EQ(first.state(), second.state());
 }
 
+// Two sheets go through each other, which is told at the start, and when another one is cut; but not while that one
+// opens, node by node.
+TEST(ClothGuardSides, ThatOpenTellNoCrossingsThatAreKnown) {
+  GuardScene scene;
+  btSoftBody& body = scene.add(hangingPatch());
+  scene.add(levelSheet(9, 0.5, btVector3(2, 0, 0)));
+  wetcloth::ClothPatch upright = squarePatch(10);
+  upright.origin = btVector3(btScalar(1.77), btScalar(-0.23), btScalar(0.017));
+  upright.edgeU = btVector3(btScalar(0.5), 0, 0);
+  upright.edgeV = btVector3(0, btScalar(0.5), btScalar(0.01));
+  scene.add(upright);
+  scene.step(5);
+  ASSERT_EQ(scene.scene().messages().size(), 1U);
+  cut(body, [](const btVector3& x) { return x.y() + btScalar(0.3) - btScalar(0.4) * x.x(); });
+  scene.step(40);
+  EXPECT_EQ(scene.scene().messages().size(), 2U);
+}
+
 // Before the step that sees the cut.
 TEST(ClothGuardSides, AStateThatWasSavedRightAfterACutIsRestored) {
   GuardScene first;
