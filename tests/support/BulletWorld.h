@@ -52,8 +52,8 @@ class BulletWorld {
   explicit BulletWorld(WorldKind kind, const btVector3& gravity = kEarthGravity, btSoftBodySolver* solver = nullptr)
       : m_kind(kind) {
     if (kind == WorldKind::softRigid) {
-      m_world = std::make_unique<btSoftRigidDynamicsWorld>(&m_dispatcher, &m_broadphase, &m_solver, &m_configuration,
-                                                           solver);
+      m_world =
+          std::make_unique<btSoftRigidDynamicsWorld>(&m_dispatcher, &m_broadphase, &m_solver, &m_configuration, solver);
     } else if (kind == WorldKind::softMultiBody) {
       m_world = std::make_unique<btSoftMultiBodyDynamicsWorld>(&m_dispatcher, &m_broadphase, &m_multiBodySolver,
                                                                &m_configuration, solver);
