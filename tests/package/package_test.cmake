@@ -22,6 +22,14 @@ function(precision_suffix precision result)
   endif()
 endfunction()
 
+# From here on the compiler is the one that this build does not use, if it is here:
+# so both compile the library.
+macro(use_other_compiler)
+  if(OTHER_COMPILERS AND NOT SANITIZE)
+    list(GET OTHER_COMPILERS 0 CXX_COMPILER)
+  endif()
+endmacro()
+
 # make_prefix(<prefix> <precision>): this build's Bullet under the names that Bullet's own install gives
 function(make_prefix prefix precision)
   file(REMOVE_RECURSE "${prefix}")
