@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
+#include <vector>
 
 namespace command {
 namespace {
@@ -51,7 +53,45 @@ PlotSeries equilibrium() {
   return series;
 }
 
-Plot profilePlot(const PlotProgress& progress) {
+/// Evenly spaced on the axis of their plot [s].
+std::vector<double> frontTimes() {
+  std::vector<double> times{5};
+  while (times.back() < 8000) times.push_back(1.12 * times.back());
+  return times;
+}
+
+/// Where the front of a strip is at these times, until it is at the strip's end.
+class FrontRecord {
+ public:
+  bool isComplete() const { return m_next == m_times.size() || m_isAtTheEnd; }
+  /// After each step.
+  void note(const WickingStrip& strip) {
+    if (isComplete() || strip.time() < m_times[m_next] - cottonStrip().step / 2) return;
+    m_isAtTheEnd = strip.front() >= strip.height(strip.rows() - 1);
+    if (m_isAtTheEnd) return;
+    m_series.add(strip.time(), 1e3 * strip.front());
+    ++m_next;
+  }
+  const PlotSeries& series() const { return m_series; }
+
+ private:
+  std::vector<double> m_times = frontTimes();
+  std::size_t m_next = 0;
+  bool m_isAtTheEnd = false;
+  PlotSeries m_series;
+};
+
+PlotSeries frontWithoutGravity() {
+  WickingStrip strip = stripThatFeels(false);
+  FrontRecord record;
+  while (!record.isComplete()) {
+    strip.advance();
+    record.note(strip);
+  }
+  return record.series();
+}
+
+Plot profilePlot(FrontRecord& front, const PlotProgress& progress) {
   const Moment moments[] = {{60, "1 min", "#a9d3ee"},
                             {300, "5 min", "#69b0dd"},
                             {1200, "20 min", "#2f86c1"},
@@ -70,30 +110,13 @@ Plot profilePlot(const PlotProgress& progress) {
   for (const Moment& moment : moments) {
     while (strip.time() < moment.time - cottonStrip().step / 2) {
       strip.advance();
+      front.note(strip);
       progress(strip.time() / std::rbegin(moments)->time);
     }
     plot.series.push_back(profileOf(strip, moment));
   }
   plot.series.push_back(equilibrium());
   return plot;
-}
-
-/// Evenly spaced on the axis of their plot [s].
-std::vector<double> frontTimes() {
-  std::vector<double> times{5};
-  while (times.back() < 8000) times.push_back(1.12 * times.back());
-  return times;
-}
-
-PlotSeries frontOf(bool feelsGravity) {
-  PlotSeries series;
-  WickingStrip strip = stripThatFeels(feelsGravity);
-  for (const double next : frontTimes()) {
-    while (strip.time() < next - cottonStrip().step / 2) strip.advance();
-    if (strip.front() >= strip.height(strip.rows() - 1)) break;
-    series.add(strip.time(), 1e3 * strip.front());
-  }
-  return series;
 }
 
 /// x = k sqrt(D t) at s = WickingStrip::frontLevel, without gravity behind an end that is full: k from (s^2 s')' + eta
@@ -111,7 +134,7 @@ PlotSeries washburn() {
   return series;
 }
 
-Plot frontPlot() {
+Plot frontPlot(PlotSeries upright) {
   Plot plot;
   plot.name = "wicking_front";
   plot.title = "The height at which the strip's saturation is 0.05";
@@ -123,11 +146,10 @@ Plot frontPlot() {
   plot.xRange = "[5:10000]";
   plot.yRange = "[1:300]";
   plot.keyPlace = "top left";
-  PlotSeries level = frontOf(false);
+  PlotSeries level = frontWithoutGravity();
   level.name = level.legend = "without gravity";
   level.mark = PlotSeries::Mark::points;
   level.colour = plot_colours::orange;
-  PlotSeries upright = frontOf(true);
   upright.name = upright.legend = "upright";
   upright.colour = plot_colours::blue;
   plot.series = {level, upright, washburn()};
@@ -138,8 +160,9 @@ Plot frontPlot() {
 
 std::vector<Plot> wickingPlots(const PlotProgress& progress) {
   std::vector<Plot> plots;
-  plots.push_back(profilePlot([&](double fraction) { progress(0.8 * fraction); }));
-  plots.push_back(frontPlot());
+  FrontRecord upright;
+  plots.push_back(profilePlot(upright, [&](double fraction) { progress(0.8 * fraction); }));
+  plots.push_back(frontPlot(upright.series()));
   progress(1);
   return plots;
 }

@@ -9,9 +9,16 @@ namespace {
 
 constexpr double stripSpeed = 1;  // all its nodes are pinned [m/s]
 
+/// Nothing to solve: all nodes are pinned.
+BulletWorld::Settings withoutLinks() {
+  BulletWorld::Settings settings;
+  settings.iterations = 0;
+  return settings;
+}
+
 }  // namespace
 
-WickingStrip::WickingStrip(const Settings& settings) : m_settings(settings), m_world(BulletWorld::Settings{}) {
+WickingStrip::WickingStrip(const Settings& settings) : m_settings(settings), m_world(withoutLinks()) {
   m_world.worldInfo().water_normal = btVector3(0, 1, 0);
   m_world.worldInfo().water_offset = 0;
   m_world.worldInfo().water_density = 1000;

@@ -42,7 +42,8 @@ std::string nameOf(Colouring colouring) {
 }
 
 constexpr double comparisonZoom = 1.5;
-constexpr double roomToMove = 1.2;  // around what is there at first
+constexpr double roomToMove = 1.2;         // around what is there at first
+constexpr double stillPictureTime = 0.05;  // between pictures of what stands still [s]; widgets need some to answer
 
 constexpr const char* keyHelp =
     "space pause    N or . one step    R reset    S slow motion    C compare with plain Bullet    H hide    P picture  "
@@ -152,7 +153,7 @@ class Player {
 PlayerReport Player::run() {
   const double start = m_lastTime = m_window.time();
   while (!m_window.isClosed() && (!m_options.frames || m_frames < *m_options.frames)) {
-    m_window.beginPicture();
+    m_window.beginPicture(m_live.isPaused() && !m_options.frames ? stillPictureTime : 0);
     for (const std::string& key : m_window.keys()) takeKey(key);
     fitComparison();
     m_hand.take(m_live, m_camera, layout());

@@ -156,8 +156,12 @@ double Window::textScale() const {
 
 double Window::time() const { return glfwGetTime(); }
 
-void Window::beginPicture() {
-  glfwPollEvents();
+void Window::beginPicture(double patience) {
+  if (patience > 0) {
+    glfwWaitEventsTimeout(patience);
+  } else {
+    glfwPollEvents();
+  }
   m_parts->keysOfPicture.clear();
   m_parts->keysOfPicture.swap(m_parts->keys);
   ImGui_ImplOpenGL3_NewFrame();

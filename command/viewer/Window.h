@@ -30,8 +30,8 @@ class Window {
   /// Since the program began [s].
   double time() const;
 
-  /// Takes what happened since the last picture, and begins the next one.
-  void beginPicture();
+  /// Takes what happened since the last picture, and begins the next one; where nothing has, waits for it so long [s].
+  void beginPicture(double patience);
   /// Names of the keys that were pressed since the last picture, "a" and so on as they are labelled, "1", "space",
   /// "escape"; not those meant for a widget.
   const std::vector<std::string>& keys() const;

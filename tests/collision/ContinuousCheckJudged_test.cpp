@@ -80,7 +80,7 @@ TYPED_TEST(ContinuousCheckJudged, GeneratedQueriesOfEveryClass) {
   for (const QueryClass kind : kQueryClasses) {
     for (const Pair pair : {Pair::vertexFace, Pair::edgeEdge}) {
       std::vector<Query<TypeParam>> queries;
-      for (int i = 0; i < 3000; ++i) queries.push_back(generator.next<TypeParam>(kind, pair));
+      for (int i = 0; i < 1500; ++i) queries.push_back(generator.next<TypeParam>(kind, pair));
       Faults faults;
       EXPECT_GT(judgeAll(pair, queries, {}, faults), 30) << nameOf(kind);
       EXPECT_EQ(faults.text(), "") << nameOf(kind);

@@ -60,7 +60,7 @@ Files writtenTwice(const std::vector<std::string>& arguments) {
 TEST(SameBytes, CheckpointsAndFrames) {
   for (const char* name : {"hanging_towel", "towel_under_hose", "curtain_deformable"}) {
     SCOPED_TRACE(name);
-    const Files files = writtenTwice({"run", sceneFile(name), "--duration", "0.3", "--no-comparison", "--checkpoint",
+    const Files files = writtenTwice({"run", sceneFile(name), "--duration", "0.2", "--no-comparison", "--checkpoint",
                                       "out.state", "--every", "10", "--frames", "out.frames", "--frame-count", "3"});
     EXPECT_EQ(files.size(), 1u + 3);
   }
@@ -79,7 +79,7 @@ TEST(SameBytes, Exports) {
   for (const char* format : {"ply", "obj_pc2", "vtk", "usda", "html"}) {
     const std::string kind = format;
     const std::string out = kind == "usda" || kind == "html" ? "out." + kind : "out";
-    writtenTwice({"export", sceneFile("towel_under_hose"), "--duration", "0.2", "--format", format, "--out", out});
+    writtenTwice({"export", sceneFile("towel_under_hose"), "--duration", "0.1", "--format", format, "--out", out});
   }
 }
 
@@ -89,7 +89,7 @@ TEST(SameBytes, PicturesFilmsAndPages) {
   std::vector<std::string> suffixes = {"png", "html"};
   if (runProgram({"ffmpeg", "-version"}).status == 0) suffixes.insert(suffixes.end(), {"mp4", "webm", "gif"});
   for (const std::string& suffix : suffixes) {
-    std::vector<std::string> words = {"render",       sceneFile("hanging_towel"), "--duration", "0.2", "--out",
+    std::vector<std::string> words = {"render",       sceneFile("hanging_towel"), "--duration", "0.1", "--out",
                                       "out." + suffix};
     if (suffix != "html") words.insert(words.end(), {"--size", "80x60"});
     writtenTwice(words);

@@ -22,6 +22,14 @@ function(precision_suffix precision result)
   endif()
 endfunction()
 
+# From here on the compiler is the one that this build does not use, if it is here:
+# so both compile the library.
+macro(use_other_compiler)
+  if(OTHER_COMPILERS AND NOT SANITIZE)
+    list(GET OTHER_COMPILERS 0 CXX_COMPILER)
+  endif()
+endmacro()
+
 # make_prefix(<prefix> <precision>): this build's Bullet under the names that Bullet's own install gives
 function(make_prefix prefix precision)
   file(REMOVE_RECURSE "${prefix}")
@@ -67,8 +75,9 @@ function(must_match text)
 endfunction()
 
 # What this build has proven about Bullet installations. A proof is named by all that it rests on, so that another
-# compiler, other flags or another installation are tried anew.
-file(STRINGS "${BUILD_DIR}/CMakeCache.txt" BULLET_PROOFS REGEX "^_BULLET_PROOF_[0-9a-f]+:INTERNAL=")
+# compiler, other flags or another installation are tried anew; whether there is type information, about its Bullet alone.
+file(STRINGS "${BUILD_DIR}/CMakeCache.txt" BULLET_PROOFS
+     REGEX "^(_BULLET_PROOF_[0-9a-f]+|WETCLOTH_BULLET_HAS_TYPEINFO):INTERNAL=")
 list(TRANSFORM BULLET_PROOFS PREPEND "-D")
 
 # The command that configures <source dir> in <build dir>. The objects of an earlier run stay, its cache does not; what

@@ -9,6 +9,7 @@ int main() {
   const Query<float> query{{{0, 0, 1}, {1, 0, 1}, {0.5f, -1, 0}, {0.5f, 1, 0}},
                            {{0, 0, -1}, {1, 0, -1}, {0.5f, -1, 0}, {0.5f, 1, 0}}};
   Contact contacts[1];
-  ContinuousCheck(Tier::fast)(Pair::edgeEdge, &query, 1, contacts);
+  const ContinuousCheck check(Tier::fast);
+  check(Pair::edgeEdge, &query, 1, contacts);
   return contacts[0].found && !coplanarityCubic(query).hasNoRoot() ? 0 : 1;
 }
