@@ -13,7 +13,7 @@ set(build "${WORK_DIR}/library")
 set(prefix "${WORK_DIR}/prefix")
 file(REMOVE_RECURSE "${prefix}")
 # Compiled as in the test `shared`, so that the compiler cache has it.
-use_other_compiler()
+use_quick_compiler()
 configure("${SOURCE_DIR}" "${build}" -DWETCLOTH_COLLISION_ONLY=ON -DBUILD_SHARED_LIBS=ON -DWETCLOTH_BUILD_TESTS=OFF
           -DWETCLOTH_EXACT_COLLISION=OFF -DWETCLOTH_FILES_PER_OBJECT=100 ${no_bullet})
 run("${CMAKE_COMMAND}" --build "${build}" --parallel 2)

@@ -22,10 +22,9 @@ function(precision_suffix precision result)
   endif()
 endfunction()
 
-# From here on the compiler is the one that this build does not use, if it is here:
-# so both compile the library.
-macro(use_other_compiler)
-  if(OTHER_COMPILERS AND NOT SANITIZE)
+# From here on the compiler is clang, if it is here: without optimizing it takes a third of GCC's time.
+macro(use_quick_compiler)
+  if(OTHER_COMPILERS MATCHES "clang" AND NOT SANITIZE)
     list(GET OTHER_COMPILERS 0 CXX_COMPILER)
   endif()
 endmacro()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Zlib
 # The shared libraries: built, installed and moved, they find each other, and what the headers say is what they show.
 include("${CMAKE_CURRENT_LIST_DIR}/package_test.cmake")
-use_other_compiler()
+use_quick_compiler()
 
 list(GET PRECISIONS 0 precision)
 set(build "${WORK_DIR}/library")
