@@ -308,7 +308,7 @@ TEST(ClothGuardSides, SidesThatHaveComeApartDoNotPassEachOther) {
   }
   PassageCheck& check = scene.watch();
   ASSERT_EQ(check.meetings(), 0);
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < 30; ++k) {
     halves.pull(-0.05 * kEdge);
     scene.step(1);
   }
