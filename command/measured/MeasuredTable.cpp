@@ -171,7 +171,7 @@ std::vector<double> MeasuredTable::numbers(const std::string& column, Allowed al
 }
 
 std::vector<double> MeasuredTable::increasing(const std::string& column, Allowed allowed) const {
-  const std::vector<double> values = numbers(column, allowed);
+  std::vector<double> values = numbers(column, allowed);
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (!(values[i] > values[i - 1])) reject(i, column, "must be greater than in the row before");
   }

@@ -38,7 +38,7 @@ struct Star {
     std::vector<btVector3> now = places;
     for (int k = 0; k < count; ++k) {
       now[std::size_t(k)] += direction(k) * btScalar(ways[std::size_t(k)]);
-      now[std::size_t(k + count)] += direction(k) * btScalar(ways[std::size_t(k)]);
+      now[std::size_t(k) + std::size_t(count)] += direction(k) * btScalar(ways[std::size_t(k)]);
     }
     return nodes.separate([&now](int node) { return now[std::size_t(node)]; });
   }
