@@ -50,7 +50,10 @@ void expectConsistent(const Json& result) {
     const double time = effect.at("ns_per_node");
     const double percent = effect.at("percent_of_step");
     EXPECT_GE(time, 0);
-    EXPECT_GE(effect.at("noise_percent").get<double>(), result.at("noise_percent").get<double>());
+    // The guard is in the solver's step: its noise is the whole step's, not that of the effects' own part.
+    if (effect.at("name") != "guard") {
+      EXPECT_GE(effect.at("noise_percent").get<double>(), result.at("noise_percent").get<double>());
+    }
     EXPECT_NEAR(percent, 100 * time / bullet, 1e-9 * (1 + percent));
     EXPECT_EQ(effect.at("below_noise").get<bool>(), percent <= effect.at("noise_percent").get<double>());
   }
