@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/pictures/Bounds.h"
 
+#include "command/pictures/PosedSolid.h"
 #include "command/pictures/VectorMath.h"
 
 #include <algorithm>
@@ -25,9 +26,8 @@ Bounds boundsOf(const FrameSequence& sequence) {
     for (const ClothState& cloth : frame.cloths) {
       for (const Vector3& position : cloth.positions) bounds.add(position);
     }
-  }
-  for (const Solid& solid : sequence.scenery.solids) {
-    for (const Vector3& vertex : solid.vertices) bounds.add(vertex);
+    if (frame.poses.empty() && &frame != &sequence.frames.front()) continue;  // the solids are there already
+    for (const Vector3& vertex : posedVertices(sequence.scenery, frame)) bounds.add(vertex);
   }
   return bounds;
 }

@@ -48,11 +48,18 @@ struct Drop {
   float radius = 0;    ///< [m]
 };
 
+/// Where a solid is: turned about the origin, then moved.
+struct Pose {
+  Vector3 place{};                         ///< [m]
+  std::array<float, 4> turn{0, 0, 0, 1};  ///< quaternion x, y, z, w of length 1
+};
+
 /// Everything that moves, at one moment.
 struct Frame {
   double time = 0;  ///< [s]
   std::vector<ClothState> cloths;
   std::vector<Drop> drops;
+  std::vector<Pose> poses;  ///< of each solid; empty: all are as the scenery has them
 };
 
 /// A plane that cloth can lie on: points p with normal . p = offset.
@@ -61,7 +68,7 @@ struct Ground {
   float offset = 0;  ///< [m]
 };
 
-/// A body that nothing moves, as triangles that face outwards (counter-clockwise seen from outside).
+/// A rigid body, as triangles that face outwards (counter-clockwise seen from outside).
 struct Solid {
   std::vector<Vector3> vertices;  ///< [m]
   std::vector<Vector3> normals;   ///< one per vertex, of length 1

@@ -51,7 +51,7 @@ void writeScenery(const std::vector<StandingMesh>& meshes, const std::string& fo
   OutputFile file(folder + "/scenery.obj");
   std::ostream& out = file.stream();
   out.precision(9);
-  out << "# what stands around the cloths, metres\n";
+  out << "# what stands around the cloths, in the first frame, metres\n";
   int first = 1;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     out << "o " << names[i] << '\n';

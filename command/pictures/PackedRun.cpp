@@ -154,6 +154,13 @@ class Packer {
       putAll(solid.normals);
       putAll(solid.triangles);
     }
+    m_head["posed"] = !m_sequence.frames.front().poses.empty();
+    for (const Frame& frame : m_sequence.frames) {
+      for (const Pose& pose : frame.poses) {
+        putAll(std::vector<Vector3>{pose.place});
+        putAll(std::vector<std::array<float, 4>>{pose.turn});
+      }
+    }
   }
 
   void putRods() {

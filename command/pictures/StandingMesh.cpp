@@ -2,6 +2,7 @@
 #include "command/pictures/StandingMesh.h"
 
 #include "command/pictures/Bounds.h"
+#include "command/pictures/PosedSolid.h"
 #include "command/pictures/VectorMath.h"
 
 #include <algorithm>
@@ -42,8 +43,9 @@ std::vector<StandingMesh> standingMeshes(const FrameSequence& sequence) {
   const Scenery& scenery = sequence.scenery;
   const Bounds bounds = boundsOf(sequence);
   std::vector<StandingMesh> meshes;
-  for (const Solid& solid : scenery.solids) {
-    meshes.push_back({"solid", solid.vertices, solid.normals, withArea(solid), {0.45F, 0.47F, 0.50F}});
+  for (std::size_t i = 0; i < scenery.solids.size(); ++i) {
+    const Solid solid = posedSolid(scenery, sequence.frames.front(), i);
+    meshes.push_back({"solid", solid.vertices, solid.normals, withArea(solid), {0.45F, 0.47F, 0.50F}, i});
   }
   for (const Ground& ground : scenery.grounds) meshes.push_back(square("ground", ground, bounds, {0.5F, 0.5F, 0.5F}));
   if (scenery.waterLevel) {

@@ -3,6 +3,8 @@
 
 #include "command/pictures/FrameSequence.h"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +17,10 @@ struct StandingMesh {
   std::vector<Vector3> normals;  ///< one per vertex
   std::vector<Triangle> triangles;
   Rgb colour{};
+  std::optional<std::size_t> solid = std::nullopt;  ///< number in Scenery::solids; none: it never moves
 };
 
-/// The solids, and of each ground and of the water a square that reaches well beyond the cloths of all frames.
+/// The solids, as they are in the first frame, and of each ground and of the water a square that reaches well beyond the cloths of all frames.
 std::vector<StandingMesh> standingMeshes(const FrameSequence& sequence);
 
 }  // namespace pictures

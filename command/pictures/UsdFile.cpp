@@ -5,6 +5,7 @@
 #include "command/pictures/ClothColour.h"
 #include "command/pictures/ClothNames.h"
 #include "command/pictures/OutputFile.h"
+#include "command/pictures/PosedSolid.h"
 #include "command/pictures/StandingMesh.h"
 #include "command/pictures/VertexNormals.h"
 
@@ -105,15 +106,20 @@ class UsdWriter {
     m_out << interpolation << '\n';
   }
 
-  template <class ValuesAt>
-  void sampled(const std::string& attribute, std::size_t cloth, ValuesAt valuesAt) {
+  template <class ValuesIn>
+  void sampledInFrames(const std::string& attribute, ValuesIn valuesIn) {
     m_out << "        " << attribute << ".timeSamples = {\n";
     for (std::size_t i = 0; i < m_sequence.frames.size(); ++i) {
       m_out << "            " << i << ": ";
-      put(m_out, valuesAt(m_sequence.frames[i].cloths[cloth]));
+      put(m_out, valuesIn(m_sequence.frames[i]));
       m_out << ",\n";
     }
     m_out << "        }\n";
+  }
+
+  template <class ValuesAt>
+  void sampled(const std::string& attribute, std::size_t cloth, ValuesAt valuesAt) {
+    sampledInFrames(attribute, [&](const Frame& frame) { return valuesAt(frame.cloths[cloth]); });
   }
 
   template <class ValuesAt>
@@ -148,12 +154,24 @@ class UsdWriter {
 
   void stands(const StandingMesh& mesh, const std::string& name) {
     beginMesh(name, mesh.triangles, false);
-    fixed("float3[] extent", boxOf(mesh.vertices));
-    fixed("point3f[] points", mesh.vertices);
-    fixed("normal3f[] normals", mesh.normals, perVertex);
+    if (mesh.solid && !m_sequence.frames.front().poses.empty()) {
+      moves(*mesh.solid);
+    } else {
+      fixed("float3[] extent", boxOf(mesh.vertices));
+      fixed("point3f[] points", mesh.vertices);
+      fixed("normal3f[] normals", mesh.normals, perVertex);
+    }
     fixed("color3f[] primvars:displayColor", std::vector<Rgb>{mesh.colour},
           " (\n            interpolation = \"constant\"\n        )");
     m_out << "    }\n";
+  }
+
+  void moves(std::size_t solid) {
+    const auto in = [&](const Frame& frame) { return posedSolid(m_sequence.scenery, frame, solid); };
+    sampledInFrames("float3[] extent", [&](const Frame& frame) { return boxOf(in(frame).vertices); });
+    sampledInFrames("point3f[] points", [&](const Frame& frame) { return in(frame).vertices; });
+    m_out << "        normal3f[] normals" << perVertex << '\n';
+    sampledInFrames("normal3f[] normals", [&](const Frame& frame) { return in(frame).normals; });
   }
 
   static constexpr const char* perVertex = " (\n            interpolation = \"vertex\"\n        )";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/pictures/View.h"
 
+#include "command/pictures/PosedSolid.h"
 #include "command/pictures/VectorMath.h"
 
 #include <algorithm>
@@ -29,8 +30,10 @@ std::vector<Vector3> seenPoints(const Scenery& scenery, const std::vector<Frame>
     for (const ClothState& cloth : frame.cloths) {
       points.insert(points.end(), cloth.positions.begin(), cloth.positions.end());
     }
+    if (frame.poses.empty() && &frame != &frames.front()) continue;  // the solids are there already
+    const std::vector<Vector3> solids = posedVertices(scenery, frame);
+    points.insert(points.end(), solids.begin(), solids.end());
   }
-  for (const Solid& solid : scenery.solids) points.insert(points.end(), solid.vertices.begin(), solid.vertices.end());
   return points;
 }
 

@@ -2,6 +2,7 @@
 #include "command/render/FrameSampler.h"
 
 #include "command/run/ScenePainter.h"
+#include "command/scene/ColliderSurface.h"
 
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/shading/Colour.h"
@@ -88,27 +89,33 @@ std::vector<float> lengthsOf(const ClothShape& shape, const btSoftBody& body) {
   return lengths;
 }
 
-/// The flat pieces of a collider, each with the normals of a sphere or of the piece.
 pictures::Solid solidOf(const Collider& collider) {
   pictures::Solid solid;
-  const auto* const sphere = std::get_if<Sphere>(&collider);
-  const auto* const box = std::get_if<Box>(&collider);
-  const btVector3 centre = sphere != nullptr ? sphere->centre : box->centre;
-  for (std::vector<btVector3> piece : surfaceOf(collider)) {
-    btVector3 flat = (piece[2] - piece[0]).cross(piece[3] - piece[1]).normalized();
-    if (flat.dot((piece[0] + piece[2]) / 2 - centre) < 0) {
-      std::reverse(piece.begin(), piece.end());
-      flat = -flat;
-    }
+  for (const ColliderSurface::Piece& piece : surfaceOf(collider).pieces) {
     const int first = static_cast<int>(solid.vertices.size());
-    for (const btVector3& corner : piece) {
-      solid.vertices.push_back(plain(corner));
-      solid.normals.push_back(plain(sphere != nullptr ? (corner - centre).normalized() : flat));
-    }
+    for (const btVector3& corner : piece.corners) solid.vertices.push_back(plain(corner));
+    for (const btVector3& normal : piece.normals) solid.normals.push_back(plain(normal));
     solid.triangles.push_back({first, first + 1, first + 2});
-    solid.triangles.push_back({first, first + 2, first + 3});
+    if (piece.corners.size() == 4) solid.triangles.push_back({first, first + 2, first + 3});
   }
   return solid;
+}
+
+/// None while nothing moves.
+std::vector<pictures::Pose> posesOf(const Scene& scene, double time) {
+  std::vector<pictures::Pose> poses;
+  bool isMoving = false;
+  for (const Collider& collider : scene.colliders) {
+    if (collider.as<Plane>() != nullptr) continue;
+    isMoving = isMoving || collider.motion;
+    const btTransform place = collider.at(time);
+    const btQuaternion turn = place.getRotation();
+    poses.push_back({plain(place.getOrigin()),
+                     {static_cast<float>(turn.x()), static_cast<float>(turn.y()), static_cast<float>(turn.z()),
+                      static_cast<float>(turn.w())}});
+  }
+  if (!isMoving) poses.clear();
+  return poses;
 }
 
 pictures::Scenery sceneryOf(const Scene& scene) {
@@ -116,7 +123,7 @@ pictures::Scenery sceneryOf(const Scene& scene) {
   scenery.title = scene.name;
   scenery.up = plain(scene.up());
   for (const Collider& collider : scene.colliders) {
-    if (const auto* plane = std::get_if<Plane>(&collider)) {
+    if (const auto* plane = collider.as<Plane>()) {
       scenery.grounds.push_back({plain(plane->normal), static_cast<float>(plane->offset)});
     } else {
       scenery.solids.push_back(solidOf(collider));
@@ -163,6 +170,7 @@ FrameSampler::FrameSampler(const SceneWorld& world) : m_scenery(sceneryOf(world.
 
 void FrameSampler::take(const SceneWorld& world, double time, pictures::Frame& frame) const {
   frame.time = time;
+  frame.poses = posesOf(world.scene(), time);
   frame.drops.clear();
   for (const FallingDrop& drop : world.drops().at(time)) {
     frame.drops.push_back({plain(drop.position), static_cast<float>(drop.radius)});

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Zlib
 #include "command/run/ScenePainter.h"
 
+#include "command/scene/ColliderSurface.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace command {
 namespace {
@@ -73,58 +76,14 @@ std::vector<std::vector<int>> piecesOf(const std::vector<std::array<int, 3>>& fa
   return pieces;
 }
 
-/// A flat piece of a convex collider, if it faces the camera.
-void addFacing(Painting& painting, const Camera& camera, const std::vector<btVector3>& corners,
-               const btVector3& inside) {
+/// A flat piece of a collider, if it faces the camera.
+void addFacing(Painting& painting, const Camera& camera, const std::vector<btVector3>& corners) {
   const btVector3 middle = (corners[0] + corners[2]) / 2;
-  btVector3 normal = unit((corners[2] - corners[0]).cross(corners[3] - corners[1]));
-  if (normal.dot(middle - inside) < 0) normal = -normal;
+  const btVector3 normal = unit((corners[2] - corners[0]).cross(corners[corners.size() == 3 ? 2 : 3] - corners[1]));
   const btVector3 towardsEye = camera.towards(middle);
   if (normal.dot(towardsEye) <= btScalar(-0.05)) return;
   const Light light(camera);
   painting.add(corners, light.shade(colliderColour, colliderRoughness, normal, towardsEye), colliderBias);
-}
-
-btVector3 onSphere(const Sphere& sphere, int ring, int sector) {
-  const double polar = SIMD_PI * btScalar(ring) / 32;
-  const double around = SIMD_2_PI * btScalar(sector) / 64;
-  const btVector3 normal(btScalar(std::sin(polar) * std::cos(around)), btScalar(std::cos(polar)),
-                         btScalar(std::sin(polar) * std::sin(around)));
-  return sphere.centre + normal * btScalar(sphere.radius);
-}
-
-using Pieces = std::vector<std::vector<btVector3>>;
-
-Pieces surfaceOf(const Sphere& sphere) {
-  Pieces pieces;
-  for (int ring = 0; ring < 32; ++ring) {
-    for (int sector = 0; sector < 64; ++sector) {
-      pieces.push_back({onSphere(sphere, ring, sector + 1), onSphere(sphere, ring + 1, sector + 1),
-                        onSphere(sphere, ring + 1, sector), onSphere(sphere, ring, sector)});
-    }
-  }
-  return pieces;
-}
-
-Pieces surfaceOf(const Box& box) {
-  constexpr int count = 8;  // small ones, so that cloth before and behind an edge sorts rightly
-  Pieces pieces;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const int side : {-1, 1}) {
-      btVector3 out(0, 0, 0), u(0, 0, 0), v(0, 0, 0);
-      out[axis] = box.halfExtents[axis] * btScalar(side);
-      u[(axis + 1) % 3] = box.halfExtents[(axis + 1) % 3] * 2 / count;
-      v[(axis + 2) % 3] = box.halfExtents[(axis + 2) % 3] * 2 / count;
-      const btVector3 start = box.centre + out - (u + v) * (btScalar(count) / 2);
-      for (int i = 0; i < count; ++i) {
-        for (int j = 0; j < count; ++j) {
-          const btVector3 corner = start + u * btScalar(i) + v * btScalar(j);
-          pieces.push_back({corner, corner + u, corner + u + v, corner + v});
-        }
-      }
-    }
-  }
-  return pieces;
 }
 
 std::vector<btVector3> pinnedPositions(const btSoftBody& body, const FrameShot::Cloth& cloth) {
@@ -226,18 +185,18 @@ void paintRod(Painting& painting, const Camera& camera, const btSoftBody& body, 
   paintBar(painting, camera, low, high, 0.012 * static_cast<double>(length));
 }
 
-std::vector<std::vector<btVector3>> surfaceOf(const Collider& collider) {
-  if (const auto* sphere = std::get_if<Sphere>(&collider)) return surfaceOf(*sphere);
-  if (const auto* box = std::get_if<Box>(&collider)) return surfaceOf(*box);
-  return {};
+std::vector<std::vector<btVector3>> piecesOf(const Collider& collider, double time) {
+  const btTransform place = collider.at(time);
+  std::vector<std::vector<btVector3>> pieces;
+  for (ColliderSurface::Piece& piece : surfaceOf(collider).pieces) {
+    for (btVector3& corner : piece.corners) corner = place * corner;
+    pieces.push_back(std::move(piece.corners));
+  }
+  return pieces;
 }
 
-void paintCollider(Painting& painting, const Camera& camera, const Collider& collider) {
-  const std::vector<btVector3> outline = outlineOf(collider);
-  if (outline.empty()) return;
-  btVector3 inside(0, 0, 0);
-  for (const btVector3& point : outline) inside += point / btScalar(outline.size());
-  for (const auto& piece : surfaceOf(collider)) addFacing(painting, camera, piece, inside);
+void paintCollider(Painting& painting, const Camera& camera, const Collider& collider, double time) {
+  for (const auto& piece : piecesOf(collider, time)) addFacing(painting, camera, piece);
 }
 
 void paintWater(Painting& painting, const Camera& camera, const Scene& scene, const FrameShot& shot) {
@@ -268,22 +227,6 @@ void paintWater(Painting& painting, const Camera& camera, const Scene& scene, co
                    Light(camera).shade(waterColour, 0.3, up, camera.towards(corner)), 0, 0.45);
     }
   }
-}
-
-std::vector<btVector3> outlineOf(const Collider& collider) {
-  std::vector<btVector3> points;
-  if (const auto* sphere = std::get_if<Sphere>(&collider)) {
-    for (int ring = 0; ring <= 32; ring += 4) {
-      for (int sector = 0; sector < 64; sector += 4) points.push_back(onSphere(*sphere, ring, sector));
-    }
-  }
-  if (const auto* box = std::get_if<Box>(&collider)) {
-    for (int corner = 0; corner < 8; ++corner) {
-      const btVector3 sign(corner & 1 ? 1.f : -1.f, corner & 2 ? 1.f : -1.f, corner & 4 ? 1.f : -1.f);
-      points.push_back(box->centre + sign * box->halfExtents);
-    }
-  }
-  return points;
 }
 
 }  // namespace command

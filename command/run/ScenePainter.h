@@ -20,16 +20,13 @@ void paintCloth(Painting& painting, const Camera& camera, const btSoftBody& body
 void paintRod(Painting& painting, const Camera& camera, const btSoftBody& body, const FrameShot::Cloth& cloth,
               const Plane* ground);
 
-/// Spheres and boxes; planes are painted as the ground.
-void paintCollider(Painting& painting, const Camera& camera, const Collider& collider);
+/// Where it is at this time [s]; planes are painted as the ground.
+void paintCollider(Painting& painting, const Camera& camera, const Collider& collider, double time);
 
 /// The surface of the scene's water, as far as the cloths reach and somewhat farther.
 void paintWater(Painting& painting, const Camera& camera, const Scene& scene, const FrameShot& shot);
 
-/// The flat pieces that a sphere or box is painted with; none for a plane.
-std::vector<std::vector<btVector3>> surfaceOf(const Collider& collider);
-
-/// Points that stand for a collider when the camera is fitted.
-std::vector<btVector3> outlineOf(const Collider& collider);
+/// The flat pieces that a collider is painted with at this time [s], counter-clockwise from outside; none for a plane.
+std::vector<std::vector<btVector3>> piecesOf(const Collider& collider, double time);
 
 }  // namespace command

@@ -15,7 +15,7 @@ namespace {
 /// The plane that is the ground of the picture: a level one that the camera is above.
 const Plane* groundOf(const Scene& scene, const Camera& camera) {
   for (const Collider& collider : scene.colliders) {
-    const auto* plane = std::get_if<Plane>(&collider);
+    const auto* plane = collider.as<Plane>();
     if (plane == nullptr || plane->normal.dot(scene.up()) < btScalar(0.7)) continue;
     if (plane->normal.dot(camera.eye()) > btScalar(plane->offset)) return plane;
   }
@@ -90,7 +90,7 @@ std::string svgShadows(const SceneWorld& world, const Plane& ground, const Camer
     }
   }
   for (const Collider& collider : world.scene().colliders) {
-    for (const auto& patch : surfaceOf(collider)) path += shadowPath(patch, ground, camera);
+    for (const auto& patch : piecesOf(collider, shot.time)) path += shadowPath(patch, ground, camera);
   }
   return "<path d=\"" + path + "\" fill=\"#1d2733\" fill-opacity=\".30\" filter=\"url(#soft)\"/>\n";
 }
@@ -154,10 +154,9 @@ Camera fitCamera(const Scene& scene, const std::vector<FrameShot>& shots) {
     for (const FrameShot::Cloth& cloth : shot.cloths) {
       seen.insert(seen.end(), cloth.positions.begin(), cloth.positions.end());
     }
-  }
-  for (const Collider& collider : scene.colliders) {
-    const std::vector<btVector3> outline = outlineOf(collider);
-    seen.insert(seen.end(), outline.begin(), outline.end());
+    for (const Collider& collider : scene.colliders) {
+      for (const auto& piece : piecesOf(collider, shot.time)) seen.insert(seen.end(), piece.begin(), piece.end());
+    }
   }
   return Camera(seen, scene.camera.direction, scene.up(), scene.camera.fieldOfView);
 }
@@ -172,7 +171,7 @@ std::string svgFrame(const SceneWorld& world, const Camera& camera, const FrameS
     paintCloth(painting, camera, *world.bodies()[i], shot.cloths[i]);
     paintRod(painting, camera, *world.bodies()[i], shot.cloths[i], ground);
   }
-  for (const Collider& collider : scene.colliders) paintCollider(painting, camera, collider);
+  for (const Collider& collider : scene.colliders) paintCollider(painting, camera, collider, shot.time);
   paintWater(painting, camera, scene, shot);
   return svg + painting.svg() + svgCaption(scene, shot) + "</svg>\n";
 }

@@ -113,6 +113,14 @@ const btCollisionObject& BulletWorld::addStatic(std::unique_ptr<btCollisionShape
   return keep(std::move(shape), std::move(body));
 }
 
+btRigidBody& BulletWorld::addKinematic(std::unique_ptr<btCollisionShape> shape, const btTransform& place) {
+  btRigidBody& body = addRigid(std::move(shape), 0, place.getOrigin());
+  body.setWorldTransform(place);
+  body.setInterpolationWorldTransform(place);
+  m_world->updateSingleAabb(&body);
+  return body;
+}
+
 btRigidBody& BulletWorld::addRigid(std::unique_ptr<btCollisionShape> shape, double mass, const btVector3& position) {
   btVector3 inertia(0, 0, 0);
   if (mass > 0) shape->calculateLocalInertia(btScalar(mass), inertia);

@@ -46,6 +46,8 @@ class BulletWorld {
   btSoftBody& add(std::unique_ptr<btSoftBody> body, const DeformableSprings* springs = nullptr);
   /// A body that nothing moves.
   const btCollisionObject& addStatic(std::unique_ptr<btCollisionShape> shape, const btTransform& place);
+  /// A body that is moved by setWorldTransform() before each substep. It stays awake.
+  btRigidBody& addKinematic(std::unique_ptr<btCollisionShape> shape, const btTransform& place);
   /// A body that moves, or, with a mass of 0 [kg], one that is moved: a kinematic one. It stays awake.
   btRigidBody& addRigid(std::unique_ptr<btCollisionShape> shape, double mass, const btVector3& position);
   void substep(btScalar dt) { m_world->stepSimulation(dt, 0); }

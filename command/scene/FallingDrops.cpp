@@ -16,7 +16,7 @@ double radiusOf(double mass, double density) { return std::cbrt(3 * mass / (4 * 
 FallingDrops::FallingDrops(const Scene& scene)
     : m_gravity(scene.gravity), m_waterDensity(scene.water ? scene.water->density : WaterScene{}.density) {
   for (const Collider& collider : scene.colliders) {
-    if (const auto* plane = std::get_if<Plane>(&collider)) m_floors.push_back(*plane);
+    if (const auto* plane = collider.as<Plane>()) m_floors.push_back(*plane);
   }
   if (scene.water) m_floors.push_back({scene.up(), scene.water->level});
 }

@@ -54,4 +54,25 @@ wetcloth::WindField readWindField(const JsonCursor& effect) {
   return readVector(effect.at("velocity_m_s"));
 }
 
+std::vector<double> readTimes(const JsonCursor& cursor) {
+  std::vector<double> times;
+  for (const JsonCursor& time : cursor.elements()) {
+    if (!times.empty() && !(time.number(Range::notNegative()) > times.back())) {
+      time.complain("must be later than the time before it");
+    }
+    times.push_back(time.number(Range::notNegative()));
+  }
+  if (times.empty()) cursor.reject("an array with at least one time");
+  return times;
+}
+
+std::vector<btVector3> readForEachTime(const JsonCursor& cursor, std::size_t times) {
+  std::vector<btVector3> vectors;
+  for (const JsonCursor& element : cursor.elements()) vectors.push_back(readVector(element));
+  if (vectors.size() != times) {
+    cursor.complain("must have one element for each of times_s, " + std::to_string(times));
+  }
+  return vectors;
+}
+
 }  // namespace command

@@ -4,8 +4,10 @@
 #include "command/scene/JsonCursor.h"
 #include "command/scene/Scene.h"
 
+#include <cstddef>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace command {
 
@@ -27,6 +29,11 @@ btVector3 readDirection(const JsonCursor& cursor);
 inline void readDirection(const JsonCursor& object, const char* key, btVector3& value) {
   if (const auto found = object.find(key)) value = readDirection(*found);
 }
+
+/// "times_s": each later than the one before, at least one.
+std::vector<double> readTimes(const JsonCursor& cursor);
+/// One vector for each of so many times.
+std::vector<btVector3> readForEachTime(const JsonCursor& cursor, std::size_t times);
 
 enum class Mode { physical, paper };
 

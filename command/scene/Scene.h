@@ -3,6 +3,7 @@
 
 #include "command/cli/NamedValues.h"
 #include "command/cli/Precision.h"
+#include "command/scene/Collider.h"
 #include "command/scene/TriangleMesh.h"
 
 #include "bullet_wetcloth/bullet_wetcloth.h"
@@ -98,20 +99,6 @@ struct ClothScene {
   double fastestPush() const;
 };
 
-struct Plane {
-  btVector3 normal;  ///< of length 1
-  double offset;     ///< points p of the plane: normal . p = offset [m]
-};
-struct Box {
-  btVector3 centre;
-  btVector3 halfExtents;
-};
-struct Sphere {
-  btVector3 centre;
-  double radius;
-};
-using Collider = std::variant<Plane, Box, Sphere>;
-
 /// A level surface of water, which Bullet is told of (btSoftBodyWorldInfo::water_normal and so on).
 struct WaterScene {
   double level = 0;       ///< its height, against gravity, above the origin [m]
@@ -140,7 +127,8 @@ struct Scene {
   std::optional<wetcloth::ClothSolver::Parameters> clothSolver;  ///< none: Bullet's own solver
   std::string quality;  ///< a name of qualityNames(); empty: substeps and iterations as they are here
   std::vector<ClothScene> cloths;
-  std::vector<Collider> colliders;
+  std::vector<Collider> colliders;    ///< those of figures are the last
+  std::vector<FigureScene> figures;
   std::optional<WaterScene> water;
   CameraScene camera;
   std::vector<std::string> hints;  ///< what is allowed and rarely meant, one line each

@@ -18,7 +18,7 @@ namespace keys {
 inline const KeyTable scene{
     "scene",
     {"$schema", "name", "description", "world", "precision", "gravity_m_s2", "step_s", "substeps", "iterations",
-     "duration_s", "implicit", "solver", "quality", "cloths", "colliders", "water", "camera"}};
+     "duration_s", "implicit", "solver", "quality", "cloths", "colliders", "figures", "water", "camera"}};
 
 inline const KeyTable solver{"solver", {"small_steps", "stiffness_n_m", "guard"}};
 inline const KeyTable guard{"guard", {"thickness_m", "self", "others", "every", "friction", "bodies", "untangle"}};
@@ -52,7 +52,8 @@ inline const KeyTable exposureBelow{"exposureBelow", {"below_m"}};
 
 inline const KeyTable gust{"gust", {"mean_m_s", "amplitude_m_s", "period_s"}};
 
-inline const KeyTable collider{"collider", {"plane", "box", "sphere"}};
+inline const KeyTable collider{
+    "collider", {"plane", "box", "sphere", "capsule", "cylinder", "hull", "mesh", "motion"}};
 
 inline const KeyTable plane{"plane", {"normal", "offset_m"}};
 
@@ -60,12 +61,27 @@ inline const KeyTable box{"box", {"centre_m", "half_extents_m"}};
 
 inline const KeyTable sphere{"sphere", {"centre_m", "radius_m"}};
 
+inline const KeyTable capsule{"capsule", {"from_m", "to_m", "radius_m"}};
+
+inline const KeyTable cylinder{"cylinder", {"from_m", "to_m", "radius_m"}};
+
+inline const KeyTable hull{"hull", {"points_m", "obj"}};
+
+inline const KeyTable rigidMotion{"rigidMotion", {"times_s", "offsets_m", "rotations_deg", "about_m"}};
+
+inline const KeyTable figure{
+    "figure", {"name", "motion", "scale", "rotation_deg", "translation_m", "parts", "bone_radius_m", "path"}};
+
+inline const KeyTable parts{"parts", {"$schema", "description", "parts"}};
+
+inline const KeyTable part{"part", {"joint", "spheres"}};
+
 inline const KeyTable camera{"camera", {"direction", "field_of_view_deg"}};
 
 /// But for those of effects, which stand in the catalogue.
 inline const std::vector<const KeyTable*> all{&scene,    &solver, &guard,         &waterPace, &obj,   &cloth,  &patch,
                                               &fabric,   &pins,   &exposureBelow, &gust,      &twist, &motion, &water,
-                                              &collider, &plane,  &box,           &sphere,    &camera};
+                                              &collider, &plane,  &box,           &sphere,    &camera, &capsule, &cylinder, &hull, &rigidMotion, &figure, &parts, &part};
 
 }  // namespace keys
 }  // namespace command

@@ -3,9 +3,11 @@
 
 #include "command/cli/Errors.h"
 #include "command/cli/ProgramFolder.h"
+#include "command/scene/ColliderReader.h"
+#include "command/scene/FigureReader.h"
 #include "command/scene/JsonCursor.h"
-#include "command/scene/ObjReader.h"
 #include "command/scene/Quality.h"
+#include "command/scene/ReadMesh.h"
 #include "command/scene/ReadParameters.h"
 
 #include <algorithm>
@@ -42,30 +44,6 @@ ClothPatch readPatch(JsonCursor cursor) {
   readNumber(cursor, "shear_stiffness", Range::positiveFraction(), patch.shearStiffness);
   readNumber(cursor, "flexion_stiffness", Range::positiveFraction(), patch.flexionStiffness);
   return patch;
-}
-
-Placement readPlacement(const JsonCursor& cursor) {
-  Placement placement;
-  readNumber(cursor, "scale", Range::positive(), placement.scale);
-  if (const auto rotation = cursor.find("rotation_deg")) placement.rotation = rotation->triple();
-  if (const auto translation = cursor.find("translation_m")) placement.translation = translation->triple();
-  return placement;
-}
-
-TriangleMesh readMeshFile(const JsonCursor& name, const Placement& placement) {
-  try {
-    return readObj((std::filesystem::path(name.file()).parent_path() / name.text()).string(), placement);
-  } catch (const std::invalid_argument& error) {
-    name.complain(error.what());
-  }
-}
-
-/// The name of a file, or where its mesh is put, too.
-TriangleMesh readMesh(JsonCursor cursor) {
-  if (cursor.isText()) return readMeshFile(cursor, {});
-  if (!cursor.isObject()) cursor.reject("the name of a file, or an object with a \"file\"");
-  cursor.expectObject(keys::obj);
-  return readMeshFile(cursor.at("file"), readPlacement(cursor));
 }
 
 wetcloth::Fabric readPreset(const JsonCursor& cursor) {
@@ -152,9 +130,6 @@ void pinWhatIsIn(const JsonCursor& region, const ClothScene& cloth, std::vector<
   }
   if (pinned.size() == before) region.complain("pins nothing: no node of the cloth begins in it");
 }
-
-Box readBox(JsonCursor cursor);
-Sphere readSphere(JsonCursor cursor);
 
 void readRegionPins(const JsonCursor& cursor, const ClothScene& cloth, std::vector<int>& pinned) {
   if (const auto region = cursor.find("box")) {
@@ -255,19 +230,8 @@ MotionScene readMotion(JsonCursor cursor, const ClothScene& cloth) {
   if (!cloth.hasPins()) cursor.complain("moves the cloth's pins, and it has none");
   if (cloth.twist) cursor.complain("must not be there beside twist, which moves pins, too");
   MotionScene motion;
-  for (const JsonCursor& time : cursor.at("times_s").elements()) {
-    if (!motion.times.empty() && !(time.number(Range::notNegative()) > motion.times.back())) {
-      time.complain("must be later than the time before it");
-    }
-    motion.times.push_back(time.number(Range::notNegative()));
-  }
-  if (motion.times.empty()) cursor.at("times_s").reject("an array with at least one time");
-  for (const JsonCursor& offset : cursor.at("offsets_m").elements()) {
-    motion.offsets.push_back(readVector(offset));
-  }
-  if (motion.offsets.size() != motion.times.size()) {
-    cursor.at("offsets_m").complain("must have one offset for each of times_s, " + std::to_string(motion.times.size()));
-  }
+  motion.times = readTimes(cursor.at("times_s"));
+  motion.offsets = readForEachTime(cursor.at("offsets_m"), motion.times.size());
   return motion;
 }
 
@@ -327,32 +291,6 @@ ClothScene readCloth(JsonCursor cursor, Scene& scene, const EffectCatalogue& cat
   readSprings(cursor, scene.world, cloth.springs);
   if (const auto effects = cursor.find("effects")) cloth.effects = readEffects(*effects, {scene, cloth}, catalogue);
   return cloth;
-}
-
-Plane readPlane(JsonCursor cursor) {
-  cursor.expectObject(keys::plane);
-  Plane plane{btVector3(0, 1, 0), 0};
-  if (const auto normal = cursor.find("normal")) plane.normal = readDirection(*normal).normalized();
-  readNumber(cursor, "offset_m", Range::finite(), plane.offset);
-  return plane;
-}
-
-Box readBox(JsonCursor cursor) {
-  cursor.expectObject(keys::box);
-  return {readVector(cursor.at("centre_m")), readVector(cursor.at("half_extents_m"), Range::positive())};
-}
-
-Sphere readSphere(JsonCursor cursor) {
-  cursor.expectObject(keys::sphere);
-  return {readVector(cursor.at("centre_m")), cursor.at("radius_m").number(Range::positive())};
-}
-
-Collider readCollider(JsonCursor cursor) {
-  cursor.expectObject(keys::collider);
-  const std::string kind = cursor.exactlyOneOf({"plane", "box", "sphere"});
-  if (kind == "plane") return readPlane(cursor.at(kind));
-  if (kind == "box") return readBox(cursor.at(kind));
-  return readSphere(cursor.at(kind));
 }
 
 WaterScene readWater(JsonCursor cursor) {
@@ -467,6 +405,9 @@ Scene readScene(const std::string& given, const EffectCatalogue& catalogue) {
   readWorld(cursor, scene);
   if (const auto colliders = cursor.find("colliders")) {
     for (const JsonCursor& collider : colliders->elements()) scene.colliders.push_back(readCollider(collider));
+  }
+  if (const auto figures = cursor.find("figures")) {
+    for (const JsonCursor& figure : figures->elements()) readFigure(figure, scene);
   }
   if (const auto water = cursor.find("water")) scene.water = readWater(*water);
   for (const JsonCursor& cloth : cursor.at("cloths").elements()) {

@@ -3,12 +3,11 @@
 
 #include "command/cli/Errors.h"
 #include "command/scene/BlowUp.h"
+#include "command/scene/ColliderShape.h"
 #include "command/scene/MeshBody.h"
 #include "command/scene/StableSprings.h"
 
-#include <BulletCollision/CollisionShapes/btBoxShape.h>
-#include <BulletCollision/CollisionShapes/btSphereShape.h>
-
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -44,9 +43,6 @@ void atPointer(const Scene& scene, const std::string& pointer, Action action) {
 
 /// Its length too: a speed that btScalar cannot hold makes the next step's numbers infinite.
 bool isFinite(const btVector3& vector) { return std::isfinite(vector.length2()); }
-
-/// Soft bodies collide with convex shapes only, so a plane becomes the top of a large, thick box.
-constexpr double planeHalfExtent = 50;
 
 }  // namespace
 
@@ -114,22 +110,26 @@ void SceneWorld::addEffects(std::size_t index, wetcloth::WetCloth& wet) {
 }
 
 void SceneWorld::addCollider(const Collider& collider) {
-  const auto addStatic = [this](std::unique_ptr<btCollisionShape> shape, const btTransform& where) {
-    m_colliders.push_back(&m_world.addStatic(std::move(shape), where));
-  };
-  btTransform place = btTransform::getIdentity();
-  if (const auto* sphere = std::get_if<Sphere>(&collider)) {
-    place.setOrigin(sphere->centre);
-    addStatic(std::make_unique<btSphereShape>(btScalar(sphere->radius)), place);
-  } else if (const auto* box = std::get_if<Box>(&collider)) {
-    place.setOrigin(box->centre);
-    addStatic(std::make_unique<btBoxShape>(box->halfExtents), place);
-  } else {
-    const auto& plane = std::get<Plane>(collider);
-    const btScalar half = btScalar(planeHalfExtent);
-    place.setRotation(shortestArcQuat(btVector3(0, 1, 0), plane.normal));
-    place.setOrigin(plane.normal * (btScalar(plane.offset) - half));
-    addStatic(std::make_unique<btBoxShape>(btVector3(half, half, half)), place);
+  ColliderShape made = shapeOf(collider);
+  if (!collider.motion) {
+    m_colliders.push_back(&m_world.addStatic(std::move(made.shape), made.rest));
+    return;
+  }
+  btRigidBody& body = m_world.addKinematic(std::move(made.shape), collider.at(0) * made.rest);
+  m_colliders.push_back(&body);
+  m_moving.push_back({&body, &collider, made.rest});
+}
+
+/// Bullet takes their velocities from where they were before.
+void SceneWorld::moveColliders(double time) {
+  for (const Moving& moving : m_moving) moving.body->setWorldTransform(moving.collider->at(time) * moving.rest);
+}
+
+/// As if they had been there all the time.
+void SceneWorld::placeColliders() {
+  moveColliders(time());
+  for (const Moving& moving : m_moving) {
+    moving.body->setInterpolationWorldTransform(moving.body->getWorldTransform());
   }
 }
 
@@ -137,6 +137,7 @@ void SceneWorld::step(const BeforeSubstep& before) {
   const btScalar dt = btScalar(substep());
   for (int i = 1; i <= m_scene.substeps; ++i) {
     const double time = (m_steps * m_scene.substeps + i) * m_scene.step / m_scene.substeps;
+    moveColliders(time);
     for (Twist& twist : m_twists) twist.moveTo(time);
     for (Motion& motion : m_motions) motion.moveTo(time);
     if (before) before(dt);
@@ -165,6 +166,7 @@ void SceneWorld::continueFrom(const SceneWorld& other) {
     }
     m_bodies[i]->updateBounds();
   }
+  placeColliders();
 }
 
 void SceneWorld::save(std::ostream& stream) const { m_wetWorld->save(stream); }
@@ -172,6 +174,7 @@ void SceneWorld::save(std::ostream& stream) const { m_wetWorld->save(stream); }
 void SceneWorld::restore(std::istream& stream, int steps) {
   m_wetWorld->restore(stream);
   m_steps = steps;
+  placeColliders();
 }
 
 void SceneWorld::finish() {
@@ -197,6 +200,7 @@ double SceneWorld::sagOf(std::size_t cloth) const {
 
 std::optional<std::string> SceneWorld::blowUp(double otherPush) const {
   const double gravity = static_cast<double>(m_scene.gravity.length());
+  for (const Moving& moving : m_moving) otherPush = std::max(otherPush, fastestOf(*moving.collider));
   for (std::size_t i = 0; i < m_bodies.size(); ++i) {
     const double speed = m_scene.cloths[i].fastestPush() + otherPush + gravity * (time() + substep());
     const auto found = findBlowUp(*m_bodies[i], {speed, substep(), sagOf(i)});

@@ -73,6 +73,14 @@ class SceneWorld {
   void addEffects(std::size_t index, wetcloth::WetCloth& wet);
   void addWater(const WaterScene& water);
   void addCollider(const Collider& collider);
+  void moveColliders(double time);
+  void placeColliders();
+
+  struct Moving {
+    btRigidBody* body;
+    const Collider* collider;
+    btTransform rest;
+  };
 
   const Scene& m_scene;
   FallingDrops m_drops;  // before the world: its effects tell it of drops
@@ -83,6 +91,7 @@ class SceneWorld {
   std::vector<wetcloth::WetCloth*> m_cloths;
   std::vector<wetcloth::CollisionAudit*> m_audits;
   Colliders m_colliders;
+  std::vector<Moving> m_moving;
   std::vector<Twist> m_twists;
   std::vector<Motion> m_motions;
   int m_steps = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/viewer/Picking.h"
 
+#include "command/pictures/PosedSolid.h"
 #include "command/viewer/PlainVector.h"
 
 #include <array>
@@ -34,14 +35,15 @@ std::optional<btScalar> meet(const Ray& ray, const Corners& corners) {
   return distance;
 }
 
-btScalar distanceToScenery(const Ray& ray, const pictures::Scenery& scenery) {
+btScalar distanceToScenery(const Ray& ray, const pictures::Scenery& scenery, const pictures::Frame& frame) {
   btScalar least = BT_LARGE_FLOAT;
   for (const pictures::Ground& ground : scenery.grounds) {
     const btVector3 normal = bulletVector(ground.normal);
     const btScalar distance = (btScalar(ground.offset) - normal.dot(ray.origin)) / normal.dot(ray.direction);
     if (distance > 0 && distance < least) least = distance;
   }
-  for (const pictures::Solid& solid : scenery.solids) {
+  for (std::size_t i = 0; i < scenery.solids.size(); ++i) {
+    const pictures::Solid solid = pictures::posedSolid(scenery, frame, i);
     for (const pictures::Triangle& triangle : solid.triangles) {
       const auto distance = meet(ray, cornersOf(solid.vertices, triangle));
       if (distance && *distance < least) least = *distance;
@@ -72,7 +74,7 @@ std::optional<Hit> pickCloth(const Ray& ray, const pictures::Scenery& scenery,
       hit = Hit{static_cast<int>(i), nearestCorner(point, corners, triangle), *distance};
     }
   }
-  if (hit && hit->distance > distanceToScenery(ray, scenery)) return std::nullopt;
+  if (hit && hit->distance > distanceToScenery(ray, scenery, frame)) return std::nullopt;
   return hit;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/pictures/gl/Extent.h"
 
+#include "command/pictures/PosedSolid.h"
 #include "command/pictures/VectorMath.h"
 
 #include <algorithm>
@@ -26,7 +27,8 @@ std::vector<Vector3> pointsOf(const Scenery& scenery, const Frame& frame) {
   for (const ClothState& cloth : frame.cloths) {
     points.insert(points.end(), cloth.positions.begin(), cloth.positions.end());
   }
-  for (const Solid& solid : scenery.solids) points.insert(points.end(), solid.vertices.begin(), solid.vertices.end());
+  const std::vector<Vector3> solids = posedVertices(scenery, frame);
+  points.insert(points.end(), solids.begin(), solids.end());
   return points;
 }
 

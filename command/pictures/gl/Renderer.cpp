@@ -4,6 +4,7 @@
 #include "Embedded.h"
 #include "command/pictures/ColourMap.h"
 #include "command/pictures/ColourScale.h"
+#include "command/pictures/PosedSolid.h"
 #include "command/pictures/VectorMath.h"
 #include "command/pictures/gl/ClothOnRods.h"
 #include "command/pictures/gl/ColourBar.h"
@@ -350,6 +351,7 @@ PictureBuffer::Part Renderer::Parts::partWithEdges(const std::vector<Vector3>& p
 
 void Renderer::Parts::draw(const Frame& frame, const View& view, const Area& area) {
   scale.include(frame);
+  for (std::size_t i = 0; i < frame.poses.size(); ++i) m_solids[i]->update(posedSolid(m_scenery, frame, i));
   std::vector<Vector3> points = pointsOf(m_scenery, frame);
   for (std::size_t i = 0; i < m_hangings.size(); ++i) {
     m_hangings[i]->update(frame.cloths[i], scale, m_scenery.grounds, 1.4F * halfPixel(view, view.target, area.height));

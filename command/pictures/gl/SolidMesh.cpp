@@ -37,13 +37,17 @@ SolidMesh::SolidMesh(const Solid& solid) {
   m_vertices.addBuffer(0, {3, 3});
   m_vertices.addBuffer(2, {4}, VertexArray::Step::instance);
   m_vertices.setTriangles(solid.triangles);
+  update(solid);
+  m_vertices.upload(instanceBuffer, {0, 0, 0, 1});
+}
+
+void SolidMesh::update(const Solid& solid) {
   std::vector<float> values;
   for (std::size_t i = 0; i < solid.vertices.size(); ++i) {
     values.insert(values.end(), solid.vertices[i].begin(), solid.vertices[i].end());
     values.insert(values.end(), solid.normals[i].begin(), solid.normals[i].end());
   }
   m_vertices.upload(vertexBuffer, values);
-  m_vertices.upload(instanceBuffer, {0, 0, 0, 1});
 }
 
 void SolidMesh::draw() const { m_vertices.drawInstances(1); }

@@ -14,6 +14,8 @@ class SolidMesh {
  public:
   explicit SolidMesh(const Solid& solid);
 
+  /// The same triangles at other places.
+  void update(const Solid& solid);
   void draw() const;
   /// @param instances  four numbers each: moved to x, y, z and made so many times as large
   void drawAt(const std::vector<float>& instances);

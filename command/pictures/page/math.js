@@ -15,6 +15,12 @@ function turned(vector, axis, angle) {
   return sum(sum(scaled(vector, Math.cos(angle)), scaled(cross(axis, vector), Math.sin(angle))), along);
 }
 
+/** By a quaternion x, y, z, w of length 1. */
+function turnedBy([x, y, z, w], vector) {
+  const axis = [x, y, z];
+  return sum(vector, scaled(cross(axis, sum(cross(axis, vector), scaled(vector, w))), 2));
+}
+
 function product(a, b) {
   const result = new Float32Array(16);
   for (let column = 0; column < 4; ++column) {

@@ -47,14 +47,41 @@ class Mesh {
   }
 }
 
-/** All are numbers, one after the other. */
-function solidMesh(gl, vertices, normals, triangles) {
+function interleaved(vertices, normals) {
   const data = new Float32Array(2 * vertices.length);
   for (let i = 0; i < vertices.length; i += 3) {
     data.set(vertices.slice(i, i + 3), 2 * i);
     data.set(normals.slice(i, i + 3), 2 * i + 3);
   }
-  return new Mesh(gl, triangles, [{first: 0, sizes: [3, 3], data}]);
+  return data;
+}
+
+/** All are numbers, one after the other. */
+const solidMesh = (gl, vertices, normals, triangles) =>
+    new Mesh(gl, triangles, [{first: 0, sizes: [3, 3], data: interleaved(vertices, normals)}]);
+
+/** A rigid body, which may move. */
+class SolidMesh {
+  constructor(gl, solid) {
+    this.solid = solid;
+    this.vertices = Float32Array.from(solid.vertices);
+    this.normals = Float32Array.from(solid.normals);
+    this.mesh = solidMesh(gl, this.vertices, this.normals, solid.triangles);
+  }
+
+  /** Between two poses. */
+  update(from, to, share) {
+    const same = from.turn.reduce((sum, x, i) => sum + x * to.turn[i], 0) < 0 ? -1 : 1;
+    const mixed = from.turn.map((x, i) => (1 - share) * x + share * same * to.turn[i]);
+    const turn = mixed.map((x) => x / Math.hypot(...mixed));
+    const place = from.place.map((x, i) => (1 - share) * x + share * to.place[i]);
+    const {vertices, normals} = this.solid;
+    for (let i = 0; i < vertices.length; i += 3) {
+      this.vertices.set(sum(place, turnedBy(turn, vertices.slice(i, i + 3))), i);
+      this.normals.set(turnedBy(turn, normals.slice(i, i + 3)), i);
+    }
+    this.mesh.update(0, interleaved(this.vertices, this.normals));
+  }
 }
 
 const squareMesh = (gl) =>

@@ -187,7 +187,7 @@ class Renderer {
     this.nothing = gl.createVertexArray();
     this.drop = ballMesh(gl);
     this.cloths = run.cloths.map((track) => new ClothMesh(gl, track));
-    this.solids = run.solids.map((solid) => solidMesh(gl, solid.vertices, solid.normals, solid.triangles));
+    this.solids = run.solids.map((solid) => new SolidMesh(gl, solid));
     this.bars = {of: null, meshes: []};
     this.setColouring('fabric');
   }
@@ -231,8 +231,9 @@ class Renderer {
     const frame = Math.min(Math.floor(place), this.run.times.length - 1);
     const share = frame + 1 < this.run.times.length ? place - frame : 0;
     for (const cloth of this.cloths) cloth.update(frame, share, this.colouring, this.scale);
+    if (this.run.poses) this.poseSolids(frame, share);
     this.setBars(this.run.rods[frame]);
-    const points = [...this.cloths.map((cloth) => cloth.positions), ...this.run.solids.map((solid) => solid.vertices)];
+    const points = [...this.cloths.map((cloth) => cloth.positions), ...this.solids.map((solid) => solid.vertices)];
     this.ball = ballAround(points);
     this.size = this.size || 2 * this.ball.radius;
     this.gl.enable(this.gl.DEPTH_TEST);
@@ -243,6 +244,12 @@ class Renderer {
     this.drawGrounds();
     this.drawBackdrop();
     this.drawWater();
+  }
+
+  poseSolids(frame, share) {
+    const from = this.run.poses[frame];
+    const to = this.run.poses[share > 0 ? frame + 1 : frame];
+    this.solids.forEach((solid, i) => solid.update(from[i], to[i], share));
   }
 
   /** A cloth's bars move with its pins. */
@@ -258,7 +265,7 @@ class Renderer {
     caster.use({clipFromCaster: this.shadowMap.clipFromWorld, behind: 0});
     for (const mesh of [...this.cloths.map((cloth) => cloth.mesh), ...this.bars.meshes]) mesh.draw();
     caster.use({behind: 2 * sunk * this.size / this.shadowMap.depth});
-    for (const mesh of this.solids) mesh.draw();
+    for (const {mesh} of this.solids) mesh.draw();
     this.shadowMap.end();
   }
 
@@ -302,7 +309,7 @@ class Renderer {
     const {gl, programs: {solid}} = this;
     gl.vertexAttrib4f(2, 0, 0, 0, 1);  // the solid itself, neither moved nor scaled
     solid.use({behind: this.behind, ...stone});
-    for (const mesh of this.solids) mesh.draw();
+    for (const {mesh} of this.solids) mesh.draw();
     solid.use({behind: 0, ...metal});
     for (const mesh of this.bars.meshes) mesh.draw();
     if (drops.length === 0) return;

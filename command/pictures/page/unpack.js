@@ -124,6 +124,15 @@ class ClothTrack {
   }
 }
 
+/** Of each frame each solid's place [m] and its turn, a quaternion; null where none moves. */
+function unpackPoses(reader, frames, head) {
+  if (!head.posed) return null;
+  return Array.from({length: frames}, () => head.solids.map(() => {
+    const values = Array.from(reader.floats(7));
+    return {place: values.slice(0, 3), turn: values.slice(3, 7)};
+  }));
+}
+
 async function unpackedRun() {
   const head = JSON.parse(document.getElementById('head').textContent);
   const reader = new Reader(await inflated(document.getElementById('bytes').textContent));
@@ -134,5 +143,6 @@ async function unpackedRun() {
     normals: reader.floats(3 * vertices),
     triangles: reader.uint32s(3 * triangles),
   }));
-  return {...head, cloths, solids, rods: unpackRods(reader, frames), drops: unpackDrops(reader, frames, head)};
+  const poses = unpackPoses(reader, frames, head);
+  return {...head, cloths, solids, poses, rods: unpackRods(reader, frames), drops: unpackDrops(reader, frames, head)};
 }

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Zlib
+#include "command/scene/SkeletonMotion.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+namespace command {
+namespace {
+
+constexpr std::size_t mostFrames = 1000000;
+constexpr double mostMetres = 1e6;
+
+[[noreturn]] void rejectJoint(const aiString& name, double time, const char* what) {
+  throw std::invalid_argument("joint \"" + std::string(name.C_Str()) + "\", frame " +
+                              std::to_string(static_cast<long>(std::lround(time))) + ": " + what);
+}
+
+void requireFinite(const aiNodeAnim& channel) {
+  for (unsigned k = 0; k < channel.mNumPositionKeys; ++k) {
+    const aiVector3D& p = channel.mPositionKeys[k].mValue;
+    const bool isSound = std::fabs(p.x) < mostMetres && std::fabs(p.y) < mostMetres && std::fabs(p.z) < mostMetres;
+    if (!isSound) rejectJoint(channel.mNodeName, channel.mPositionKeys[k].mTime, "its place must be a finite number");
+  }
+  for (unsigned k = 0; k < channel.mNumRotationKeys; ++k) {
+    const aiQuaternion& q = channel.mRotationKeys[k].mValue;
+    const bool isSound = std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z) && std::isfinite(q.w);
+    if (!isSound) rejectJoint(channel.mNodeName, channel.mRotationKeys[k].mTime, "its turn must be a finite number");
+  }
+}
+
+/// What keys tell at this time, between two of them in between.
+template <class Key, class Mix>
+auto valueAt(const Key* keys, unsigned count, double time, Mix mix) {
+  const Key* const next = std::upper_bound(keys, keys + count, time, [](double t, const Key& k) { return t < k.mTime; });
+  if (next == keys) return keys[0].mValue;
+  if (next == keys + count) return keys[count - 1].mValue;
+  return mix(next[-1].mValue, next->mValue, static_cast<ai_real>((time - next[-1].mTime) / (next->mTime - next[-1].mTime)));
+}
+
+/// Without scale: bones are rigid.
+btTransform rigid(const aiQuaternion& turn, const aiVector3D& place) {
+  return btTransform(btQuaternion(btScalar(turn.x), btScalar(turn.y), btScalar(turn.z), btScalar(turn.w)).normalized(),
+                     btVector3(btScalar(place.x), btScalar(place.y), btScalar(place.z)));
+}
+
+btVector3 plain(const aiVector3D& v) { return btVector3(btScalar(v.x), btScalar(v.y), btScalar(v.z)); }
+
+class SkeletonReader {
+ public:
+  SkeletonReader(const aiScene& scene, const Placement& placement) : m_scene(scene), m_placement(placement) {}
+
+  SkeletonMotion read() {
+    if (m_scene.mNumAnimations == 0) throw std::invalid_argument("has no motion: no animation is in it");
+    const aiAnimation& animation = *m_scene.mAnimations[0];
+    const std::set<double> ticks = ticksOf(animation);
+    const double perSecond = animation.mTicksPerSecond > 0 ? animation.mTicksPerSecond : 25;
+    for (const double tick : ticks) m_motion.times.push_back((tick - *ticks.begin()) / perSecond);
+    for (const double tick : ticks) take(*m_scene.mRootNode, outermost(), tick);
+    addSkin();
+    return std::move(m_motion);
+  }
+
+ private:
+  std::set<double> ticksOf(const aiAnimation& animation) {
+    std::set<double> ticks;
+    for (unsigned c = 0; c < animation.mNumChannels; ++c) {
+      const aiNodeAnim& channel = *animation.mChannels[c];
+      requireFinite(channel);
+      m_channels[channel.mNodeName.C_Str()] = &channel;
+      for (unsigned k = 0; k < channel.mNumRotationKeys; ++k) ticks.insert(channel.mRotationKeys[k].mTime);
+      for (unsigned k = 0; k < channel.mNumPositionKeys; ++k) ticks.insert(channel.mPositionKeys[k].mTime);
+    }
+    if (ticks.empty()) throw std::invalid_argument("has no motion: its animation has no frames");
+    if (ticks.size() > mostFrames) throw std::invalid_argument("has more than 1000000 frames");
+    return ticks;
+  }
+
+  /// Of the scene: turned and moved as it is placed; lengths are scaled where they are read.
+  btTransform outermost() const {
+    const auto put = [&](double x, double y, double z) {
+      const auto p = m_placement({x / m_placement.scale, y / m_placement.scale, z / m_placement.scale});
+      return btVector3(btScalar(p[0]), btScalar(p[1]), btScalar(p[2]));
+    };
+    const btVector3 origin = put(0, 0, 0);
+    const btVector3 x = put(1, 0, 0) - origin, y = put(0, 1, 0) - origin, z = put(0, 0, 1) - origin;
+    return btTransform(btMatrix3x3(x.x(), y.x(), z.x(), x.y(), y.y(), z.y(), x.z(), y.z(), z.z()), origin);
+  }
+
+  void take(const aiNode& node, const btTransform& parent, double tick) {
+    const auto found = m_channels.find(node.mName.C_Str());
+    btTransform local = placeAtRest(node);
+    if (found != m_channels.end()) local = placeAt(*found->second, local, tick);
+    local.setOrigin(local.getOrigin() * btScalar(m_placement.scale));
+    const btTransform place = parent * local;
+    SkeletonMotion::Joint& joint = jointOf(node);
+    joint.places.push_back(place);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) take(*node.mChildren[i], place, tick);
+  }
+
+  static btTransform placeAtRest(const aiNode& node) {
+    aiVector3D scale, place;
+    aiQuaternion turn;
+    node.mTransformation.Decompose(scale, turn, place);
+    return rigid(turn, place);
+  }
+
+  static btTransform placeAt(const aiNodeAnim& channel, const btTransform& rest, double tick) {
+    btTransform place = rest;
+    if (channel.mNumRotationKeys > 0) {
+      const aiQuaternion turn = valueAt(channel.mRotationKeys, channel.mNumRotationKeys, tick,
+                                        [](const aiQuaternion& a, const aiQuaternion& b, ai_real share) {
+                                          aiQuaternion between;
+                                          aiQuaternion::Interpolate(between, a, b, share);
+                                          return between;
+                                        });
+      place = rigid(turn, {});
+      place.setOrigin(rest.getOrigin());
+    }
+    if (channel.mNumPositionKeys > 0) {
+      place.setOrigin(plain(valueAt(channel.mPositionKeys, channel.mNumPositionKeys, tick,
+                                    [](const aiVector3D& a, const aiVector3D& b, ai_real share) {
+                                      return a + (b - a) * share;
+                                    })));
+    }
+    return place;
+  }
+
+  SkeletonMotion::Joint& jointOf(const aiNode& node) {
+    const std::string name = node.mName.C_Str();
+    const auto [found, isNew] = m_numbers.emplace(&node, m_motion.joints.size());
+    if (!isNew) return m_motion.joints[found->second];
+    SkeletonMotion::Joint joint;
+    joint.name = name;
+    for (unsigned i = 0; i < node.mNumChildren; ++i) {
+      joint.ends.push_back(placeAtRest(*node.mChildren[i]).getOrigin() * btScalar(m_placement.scale));
+    }
+    m_byName.emplace(name, m_motion.joints.size());
+    m_motion.joints.push_back(std::move(joint));
+    return m_motion.joints.back();
+  }
+
+  /// Each vertex goes to the bone that holds it most.
+  void addSkin() {
+    for (unsigned m = 0; m < m_scene.mNumMeshes; ++m) {
+      const aiMesh& mesh = *m_scene.mMeshes[m];
+      std::vector<std::pair<float, const aiBone*>> holder(mesh.mNumVertices, {0.0F, nullptr});
+      for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+        for (unsigned w = 0; w < mesh.mBones[b]->mNumWeights; ++w) {
+          const aiVertexWeight& weight = mesh.mBones[b]->mWeights[w];
+          auto& most = holder.at(weight.mVertexId);
+          if (weight.mWeight > most.first) most = {weight.mWeight, mesh.mBones[b]};
+        }
+      }
+      for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+        if (holder[v].second == nullptr) continue;
+        const auto joint = m_byName.find(holder[v].second->mName.C_Str());
+        if (joint == m_byName.end()) continue;
+        const btVector3 seen = plain(holder[v].second->mOffsetMatrix * mesh.mVertices[v]);
+        m_motion.joints[joint->second].skin.push_back(seen * btScalar(m_placement.scale));
+      }
+    }
+  }
+
+  const aiScene& m_scene;
+  const Placement& m_placement;
+  std::map<std::string, const aiNodeAnim*> m_channels;
+  std::map<const aiNode*, std::size_t> m_numbers;
+  std::map<std::string, std::size_t> m_byName;
+  SkeletonMotion m_motion;
+};
+
+}  // namespace
+
+SkeletonMotion readSkeletonMotion(const std::string& file, const Placement& placement) {
+  Assimp::Importer importer;
+  const aiScene* const scene = importer.ReadFile(file, 0);
+  if (scene == nullptr || scene->mRootNode == nullptr) throw std::invalid_argument(importer.GetErrorString());
+  return SkeletonReader(*scene, placement).read();
+}
+
+}  // namespace command
