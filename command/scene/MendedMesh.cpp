@@ -33,6 +33,9 @@ void renumber(TriangleMesh& mesh) {
   for (auto& corners : mesh.triangles) {
     for (int& corner : corners) corner = mesh.nodeOfVertex[toSize(corner)];
   }
+  for (auto& [name, nodes] : mesh.lines) {
+    for (int& node : nodes) node = mesh.nodeOfVertex[toSize(node)];
+  }
   for (auto& [name, nodes] : mesh.groups) {
     for (int& node : nodes) node = mesh.nodeOfVertex[toSize(node)];
     std::sort(nodes.begin(), nodes.end());

@@ -86,6 +86,7 @@ class ObjMesh {
     if (keyword == "v") m_places.push_back(m_placement(readVertex(words, line)));
     if (keyword == "vt") m_mesh.texture.push_back(readTexture(words));
     if (keyword == "f") takeFace(words, line);
+    if (keyword == "l") takeLine(words, line);
     if (keyword == "g") takeNames(words, m_groups);
     if (keyword == "o") takeNames(words, m_objects);
   }
@@ -132,6 +133,21 @@ class ObjMesh {
                                  [](const FaceCorner& a, const FaceCorner& b) { return a.vertex < b.vertex; }),
                 corners.end());
     return corners;
+  }
+
+  /// Goes on where the line of the same name has ended, or begins it.
+  void takeLine(std::istringstream& words, int number) {
+    std::vector<int> vertices;
+    for (std::string word; words >> word;) {
+      vertices.push_back(readCorner(word, m_places.size(), m_mesh.texture.size(), number).vertex);
+    }
+    for (const auto* names : {&m_groups, &m_objects}) {
+      for (const std::string& name : *names) {
+        std::vector<int>& line = m_mesh.lines[name];
+        const bool goesOn = !line.empty() && !vertices.empty() && line.back() == vertices.front();
+        line.insert(line.end(), vertices.begin() + (goesOn ? 1 : 0), vertices.end());
+      }
+    }
   }
 
   void takeFace(std::istringstream& words, int line) {

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -73,9 +74,18 @@ struct EffectScene {
   double speed = 0;  ///< of the air and water that its parameters name, all together [m/s]
 };
 
+/// What is special about a cloth that is sewn of panels; its shape is the sewn mesh.
+struct GarmentScene {
+  double sewing = 1;                      ///< time before the beginning in which the seams are drawn together [s]
+  double settling = 1;                    ///< after that, still before the beginning [s]
+  std::vector<wetcloth::Fabric> fabrics;  ///< the first is the cloth's own
+  std::vector<int> fabricOfNode;          ///< of each node the number in `fabrics`
+};
+
 struct ClothScene {
   std::string name;
   std::variant<wetcloth::ClothPatch, TriangleMesh> shape;
+  std::optional<GarmentScene> garment;
   std::vector<int> pinnedNodes;  ///< of a mesh; a patch knows its own
   wetcloth::Fabric fabric;
   double initialSaturation = 0;
@@ -111,6 +121,11 @@ struct CameraScene {
   double fieldOfView = 30;                              ///< vertical [degrees]
 };
 
+/// Where cloths are at the beginning that are sewn and settle before it.
+struct Dressed {
+  std::vector<std::vector<btVector3>> places;  ///< of each cloth's nodes [m]; empty: not found yet
+};
+
 constexpr double mostSteps = 2e9;  ///< of a run
 
 struct Scene {
@@ -131,6 +146,7 @@ struct Scene {
   std::vector<FigureScene> figures;
   std::optional<WaterScene> water;
   CameraScene camera;
+  std::shared_ptr<Dressed> dressed = std::make_shared<Dressed>();  ///< found when it is first asked for (dressedPlaces())
   std::vector<std::string> hints;  ///< what is allowed and rarely meant, one line each
 
   SolverKind solver() const { return clothSolver ? SolverKind::wetcloth : SolverKind::bullet; }

@@ -24,7 +24,7 @@ inline const KeyTable solver{"solver", {"small_steps", "stiffness_n_m", "guard"}
 inline const KeyTable guard{"guard", {"thickness_m", "self", "others", "every", "friction", "bodies", "untangle"}};
 
 inline const KeyTable cloth{"cloth",
-                            {"name", "patch", "obj", "fabric", "pins", "initial_saturation", "water_pace", "friction",
+                            {"name", "patch", "obj", "garment", "fabric", "pins", "initial_saturation", "water_pace", "friction",
                              "damping", "margin_m", "collisions", "self_collision", "clusters", "twist", "motion",
                              "spring_stiffness_n_m", "bending_stiffness_n_m", "spring_damping_n_s_m", "effects"}};
 
@@ -76,12 +76,25 @@ inline const KeyTable parts{"parts", {"$schema", "description", "parts"}};
 
 inline const KeyTable part{"part", {"joint", "spheres"}};
 
+inline const KeyTable garment{
+    "garment", {"file", "panels", "seams", "fabrics", "sewing_s", "settling_s", "flexion_stiffness"}};
+
+inline const KeyTable pattern{"pattern", {"$schema", "description", "panels", "seams"}};
+
+inline const KeyTable panel{"panel", {"name", "patch", "obj"}};
+
+inline const KeyTable seam{"seam", {"first", "second"}};
+
+inline const KeyTable seamSide{"seamSide", {"panel", "line", "nodes", "reversed"}};
+
+inline const KeyTable panelFabric{"panelFabric", {"panel", "fabric"}};
+
 inline const KeyTable camera{"camera", {"direction", "field_of_view_deg"}};
 
 /// But for those of effects, which stand in the catalogue.
 inline const std::vector<const KeyTable*> all{&scene,    &solver, &guard,         &waterPace, &obj,   &cloth,  &patch,
                                               &fabric,   &pins,   &exposureBelow, &gust,      &twist, &motion, &water,
-                                              &collider, &plane,  &box,           &sphere,    &camera, &capsule, &cylinder, &hull, &rigidMotion, &figure, &parts, &part};
+                                              &collider, &plane,  &box,           &sphere,    &camera, &capsule, &cylinder, &hull, &rigidMotion, &figure, &parts, &part, &garment, &pattern, &panel, &seam, &seamSide, &panelFabric};
 
 }  // namespace keys
 }  // namespace command

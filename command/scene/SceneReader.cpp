@@ -4,8 +4,11 @@
 #include "command/cli/Errors.h"
 #include "command/cli/ProgramFolder.h"
 #include "command/scene/ColliderReader.h"
+#include "command/scene/FabricReader.h"
 #include "command/scene/FigureReader.h"
+#include "command/scene/GarmentReader.h"
 #include "command/scene/JsonCursor.h"
+#include "command/scene/PatchReader.h"
 #include "command/scene/Quality.h"
 #include "command/scene/ReadMesh.h"
 #include "command/scene/ReadParameters.h"
@@ -24,66 +27,10 @@ namespace {
 
 using wetcloth::ClothPatch;
 
-constexpr int mostNodesAlongAnEdge = 4096;
-constexpr int mostNodesOfPatch = 1000000;
-
-ClothPatch readPatch(JsonCursor cursor) {
-  cursor.expectObject(keys::patch);
-  ClothPatch patch;
-  if (const auto columns = cursor.find("columns")) patch.columns = columns->integer(2, mostNodesAlongAnEdge);
-  if (const auto rows = cursor.find("rows")) patch.rows = rows->integer(2, mostNodesAlongAnEdge);
-  if (patch.nodeCount() > mostNodesOfPatch) cursor.complain("columns x rows must be at most 1000000");
-  readVector(cursor, "origin_m", patch.origin);
-  patch.edgeU = readVector(cursor.at("edge_u_m"));
-  patch.edgeV = readVector(cursor.at("edge_v_m"));
-  const btScalar lengths = patch.edgeU.length() * patch.edgeV.length();
-  if (!(patch.edgeU.cross(patch.edgeV).length() > btScalar(1e-6) * lengths)) {
-    cursor.at("edge_v_m").reject("across edge_u_m; the two must not be parallel, nor of length 0");
-  }
-  readNumber(cursor, "mechanical_stiffness", Range::positiveFraction(), patch.mechanicalStiffness);
-  readNumber(cursor, "shear_stiffness", Range::positiveFraction(), patch.shearStiffness);
-  readNumber(cursor, "flexion_stiffness", Range::positiveFraction(), patch.flexionStiffness);
-  return patch;
-}
-
-wetcloth::Fabric readPreset(const JsonCursor& cursor) {
-  std::vector<std::pair<std::string, wetcloth::Fabric>> presets;
-  for (const wetcloth::Fabric& fabric : wetcloth::Fabric::presets()) presets.emplace_back(fabric.name, fabric);
-  return cursor.choice(presets);
-}
-
-wetcloth::Fabric readFabric(JsonCursor cursor) {
-  if (cursor.isText()) return readPreset(cursor);
-  if (!cursor.isObject()) cursor.reject("the name of a fabric, or an object that describes one");
-  cursor.expectObject(keys::fabric);
-  wetcloth::Fabric fabric;
-  if (const auto preset = cursor.find("preset")) {
-    fabric = readPreset(*preset);
-  } else {
-    cursor.at("capacity_kg_per_kg");
-    cursor.at("time_constant_s");
-    cursor.at("areal_density_kg_m2");
-  }
-  if (const auto name = cursor.find("name")) fabric.name = name->text();
-  readNumber(cursor, "capacity_kg_per_kg", Range::positive(), fabric.capacity);
-  readNumber(cursor, "time_constant_s", Range::positive(), fabric.timeConstant);
-  readNumber(cursor, "areal_density_kg_m2", Range::positive(), fabric.arealDensity);
-  if (const auto colour = cursor.find("colour")) fabric.dryColour = colour->triple(Range::fraction());
-  readNumber(cursor, "roughness", Range::fraction(), fabric.dryRoughness);
-  return fabric;
-}
-
 std::vector<int> readNodes(const JsonCursor& cursor, int nodes) {
   std::vector<int> indices;
   for (const JsonCursor& element : cursor.elements()) indices.push_back(element.integer(0, nodes - 1));
   return indices;
-}
-
-const std::vector<std::pair<std::string, ClothPatch::Edge>>& edgeNames() {
-  using Edge = ClothPatch::Edge;
-  static const std::vector<std::pair<std::string, Edge>> names{
-      {"left", Edge::left}, {"right", Edge::right}, {"bottom", Edge::bottom}, {"top", Edge::top}};
-  return names;
 }
 
 void readPatchPins(const JsonCursor& cursor, ClothPatch& patch) {
@@ -271,13 +218,12 @@ ClothScene readCloth(JsonCursor cursor, Scene& scene, const EffectCatalogue& cat
   cursor.expectObject(keys::cloth);
   ClothScene cloth;
   if (const auto name = cursor.find("name")) cloth.name = name->text();
-  if (cursor.exactlyOneOf({"patch", "obj"}) == "patch") {
-    cloth.shape = readPatch(cursor.at("patch"));
-  } else {
-    cloth.shape = readMesh(cursor.at("obj"));
-  }
-  hintAt(cursor.at(std::holds_alternative<ClothPatch>(cloth.shape) ? "patch" : "obj"), cloth, scene.hints);
   cloth.fabric = readFabric(cursor.at("fabric"));
+  const std::string kind = cursor.exactlyOneOf({"patch", "obj", "garment"});
+  if (kind == "patch") cloth.shape = readPatch(cursor.at(kind));
+  if (kind == "obj") cloth.shape = readMesh(cursor.at(kind));
+  if (kind == "garment") readGarment(cursor.at(kind), cloth);
+  hintAt(cursor.at(kind), cloth, scene.hints);
   if (auto* patch = std::get_if<ClothPatch>(&cloth.shape)) patch->arealDensity = cloth.fabric.arealDensity;
   if (const auto pins = cursor.find("pins")) readPins(*pins, cloth);
   readNumber(cursor, "initial_saturation", Range::fraction(), cloth.initialSaturation);

@@ -3,8 +3,9 @@
 
 #include "command/cli/Errors.h"
 #include "command/scene/BlowUp.h"
+#include "command/scene/ClothBody.h"
 #include "command/scene/ColliderShape.h"
-#include "command/scene/MeshBody.h"
+#include "command/scene/Dressing.h"
 #include "command/scene/StableSprings.h"
 
 #include <algorithm>
@@ -22,13 +23,6 @@ BulletWorld::Settings settingsOf(const Scene& scene, SceneWorld::Kind kind) {
   BulletWorld::Settings settings{scene.world, scene.gravity, scene.iterations, scene.implicit, std::nullopt};
   if (kind == SceneWorld::Kind::wet) settings.clothSolver = scene.clothSolver;
   return settings;
-}
-
-std::unique_ptr<btSoftBody> makeBody(const ClothScene& cloth, btSoftBodyWorldInfo& worldInfo) {
-  if (const auto* patch = std::get_if<wetcloth::ClothPatch>(&cloth.shape)) return patch->build(worldInfo);
-  auto body = makeMeshBody(std::get<TriangleMesh>(cloth.shape), cloth.fabric.arealDensity, worldInfo);
-  for (const int node : cloth.pinnedNodes) body->setMass(node, 0);
-  return body;
 }
 
 /// Calls `action`; what the library refuses is bad input at `pointer`.
@@ -53,7 +47,7 @@ SceneWorld::SceneWorld(const Scene& scene, Kind kind)
   for (const Collider& collider : scene.colliders) addCollider(collider);
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
     const std::string pointer = "/cloths/" + std::to_string(i);
-    atPointer(scene, pointer, [&] { addCloth(scene.cloths[i], kind); });
+    atPointer(scene, pointer, [&] { addCloth(i, kind); });
     if (kind == Kind::plainBullet) continue;
     atPointer(scene, pointer, [&] { m_cloths.push_back(&m_wetWorld->add(m_bodies.back(), scene.cloths[i].fabric)); });
     m_cloths.back()->setPace(scene.cloths[i].pace);
@@ -62,13 +56,10 @@ SceneWorld::SceneWorld(const Scene& scene, Kind kind)
   }
 }
 
-void SceneWorld::addCloth(const ClothScene& cloth, Kind kind) {
-  std::unique_ptr<btSoftBody> body = makeBody(cloth, m_world.worldInfo());
-  body->m_cfg.kDF = btScalar(cloth.friction);
-  body->m_cfg.kDP = btScalar(cloth.damping);
-  body->getCollisionShape()->setMargin(btScalar(cloth.margin));
-  if (cloth.clusters > 0) body->generateClusters(cloth.clusters);
-  body->setSelfCollision(cloth.selfCollision);
+void SceneWorld::addCloth(std::size_t index, Kind kind) {
+  const ClothScene& cloth = m_scene.cloths[index];
+  std::unique_ptr<btSoftBody> body = makeClothBody(cloth, m_world.worldInfo());
+  if (cloth.garment) placeNodes(*body, dressedPlaces(m_scene)[index]);
   const bool wePull = kind == Kind::wet && cloth.hasEffect("hooke_springs");
   const bool bulletPulls = m_scene.world == WorldKind::deformable && !wePull;
   m_springs.emplace_back();

@@ -66,7 +66,7 @@ class SceneWorld {
   std::optional<std::string> blowUp(double otherPush = 0) const;
 
  private:
-  void addCloth(const ClothScene& cloth, Kind kind);
+  void addCloth(std::size_t index, Kind kind);
   void addFaceTree(btSoftBody& body) const;
   double substep() const { return m_scene.step / m_scene.substeps; }
   double sagOf(std::size_t cloth) const;

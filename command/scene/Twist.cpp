@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "command/scene/Twist.h"
 
+#include "command/scene/PatchReader.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,15 +17,8 @@ bool isAlongU(Edge edge) { return edge == Edge::bottom || edge == Edge::top; }
 }  // namespace
 
 Twist::Twist(btSoftBody& body, const ClothPatch& patch, const TwistScene& scene) : m_body(body), m_scene(scene) {
-  const int columns = patch.columns;
-  const int count = isAlongU(scene.edge) ? columns : patch.rows;
-  for (int i = 0; i < count; ++i) {
-    m_nodes.push_back(scene.edge == Edge::bottom ? patch.node(i, 0)
-                      : scene.edge == Edge::top  ? patch.node(i, patch.rows - 1)
-                      : scene.edge == Edge::left ? patch.node(0, i)
-                                                 : patch.node(columns - 1, i));
-    m_starts.push_back(body.m_nodes[m_nodes.back()].m_x);
-  }
+  m_nodes = nodesOfEdge(patch, scene.edge);
+  for (const int node : m_nodes) m_starts.push_back(body.m_nodes[node].m_x);
   m_centre = (m_starts.front() + m_starts.back()) / 2;
   m_axis = (isAlongU(scene.edge) ? patch.edgeV : patch.edgeU).normalized();
   const bool isFarEdge = scene.edge == Edge::top || scene.edge == Edge::right;
