@@ -160,6 +160,7 @@ void makeHull(const std::vector<btVector3>& points, ConvexHull& hull) {
     } while (edge != begin);
     hull.first.push_back(hull.cornerOfPolygon.size());
     hull.planes.push_back(planeOf(hull, hull.planes.size(), middle));
+    hull.sides.add(hull.planes.back().normal, hull.planes.back().offset);
   }
 }
 

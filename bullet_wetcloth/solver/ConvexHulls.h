@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Precision.h"
 #include "bullet_wetcloth/solver/BodyPose.h"
+#include "bullet_wetcloth/solver/HullPlanes.h"
 
 #include <BulletCollision/CollisionShapes/btConvexShape.h>
 
@@ -25,6 +26,7 @@ struct ConvexHull {
   std::vector<int> cornerOfPolygon;  ///< of each polygon, one after the other
   std::vector<std::size_t> first;    ///< where each polygon begins there, and one more
   std::vector<Plane> planes;         ///< of each polygon
+  HullPlanes sides;                  ///< the same, to measure by
   BodyBox box;
 
   std::size_t polygons() const { return planes.size(); }

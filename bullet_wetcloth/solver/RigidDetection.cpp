@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/bullet/ImpulseMatrix.h"
 #include "bullet_wetcloth/solver/ShapeDistance.h"
 
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletSoftBody/btSoftBodyInternals.h>
 
 namespace wetcloth {
@@ -19,11 +20,26 @@ bool isPlane(const btCollisionObject& object) {
   return object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
 }
 
-// Lists contacts of one object by a closed form of its distance.
-class ClosedForm {
+// A hull and Bullet's margin around it.
+class MeasuredHull {
  public:
-  ClosedForm(btSoftBody& body, ContactList& contacts, const btCollisionObject& object, const btCollisionShape& shape,
-             const btTransform& pose)
+  MeasuredHull(const HullPlanes& planes, btScalar margin) : m_planes(planes), m_margin(margin) {}
+  ShapeDistance distanceTo(const btVector3& point) const {
+    const ShapeDistance found = m_planes.distanceTo(point);
+    return {found.distance - m_margin, found.normal};
+  }
+
+ private:
+  const HullPlanes& m_planes;
+  btScalar m_margin;
+};
+
+// Lists contacts of one object whose distance is measured.
+template <class Shape>
+class MeasuredContacts {
+ public:
+  MeasuredContacts(btSoftBody& body, ContactList& contacts, const btCollisionObject& object, const Shape& shape,
+                   const btTransform& pose)
       : m_body(body), m_contacts(contacts), m_object(object), m_shape(shape), m_pose(pose) {
     m_rigid = const_cast<btRigidBody*>(btRigidBody::upcast(&object));
     m_isMovable = m_rigid && m_rigid->getInvMass() > 0;
@@ -72,7 +88,7 @@ class ClosedForm {
   btSoftBody& m_body;
   ContactList& m_contacts;
   const btCollisionObject& m_object;
-  MeasuredShape m_shape;
+  const Shape& m_shape;
   const btTransform& m_pose;
   btRigidBody* m_rigid;
   bool m_isMovable;  // by an impulse
@@ -86,6 +102,7 @@ class ClosedForm {
 void RigidDetection::begin(btSoftBody& body) {
   m_plane = nullptr;
   m_contacts.begin(body);
+  m_hulls.endStep();
 }
 
 void RigidDetection::detect(btSoftBody& body, LocalNodes& nodes, const btCollisionObjectWrapper& object) {
@@ -100,10 +117,15 @@ void RigidDetection::detect(btSoftBody& body, LocalNodes& nodes, const btCollisi
   btVector3 least;
   btVector3 largest;
   shape.getAabb(pose, least, largest);
-  if (MeasuredShape::isOne(shape)) {
-    const ClosedForm form(body, m_contacts, root, shape, pose);
-    nodes.forEachPredictedIn(least - around, largest + around, [&](btSoftBody::Node& node) { form.test(node); });
-    return;
+  const auto testEachBy = [&](const auto& measured) {
+    const MeasuredContacts contacts(body, m_contacts, root, measured, pose);
+    nodes.forEachPredictedIn(least - around, largest + around, [&](btSoftBody::Node& node) { contacts.test(node); });
+  };
+  if (MeasuredShape::isOne(shape)) return testEachBy(MeasuredShape(shape));
+  if (shape.getShapeType() == CONVEX_HULL_SHAPE_PROXYTYPE) {
+    const auto& hull = static_cast<const btConvexHullShape&>(shape);
+    const HullPlanes& sides = m_hulls.of(hull).sides;
+    if (!sides.isEmpty()) return testEachBy(MeasuredHull(sides, hull.getMargin()));
   }
   btSoftColliders::CollideSDF_RS test;
   test.psb = &body;

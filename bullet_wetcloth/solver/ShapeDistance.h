@@ -15,7 +15,7 @@ struct ShapeDistance {
   btVector3 normal;   ///< of length 1, outwards
 };
 
-/// A shape whose distance has a closed form: a box, a sphere or a plane.
+/// A shape whose distance has a closed form: a box, a sphere, a capsule, a round cylinder or a plane.
 class MeasuredShape {
  public:
   /// Whether it is one of these.
@@ -28,7 +28,9 @@ class MeasuredShape {
  private:
   int m_type;
   btVector3 m_extent;  // half of a box's sides, or a plane's normal [m]
-  btScalar m_size;     // a sphere's radius, or how far a plane is from the origin [m]
+  btScalar m_size;     // the radius of what is round, or how far a plane is from the origin [m]
+  int m_axis = 1;      // of a capsule or cylinder
+  btScalar m_half;     // of a capsule's axis, without its round ends, or of a cylinder's [m]
 };
 
 }  // namespace WETCLOTH_PRECISION

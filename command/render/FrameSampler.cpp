@@ -83,9 +83,13 @@ float distance(const btSoftBody& body, const std::array<int, 2>& link) {
   return static_cast<float>((body.m_nodes[link[0]].m_x - body.m_nodes[link[1]].m_x).length());
 }
 
-std::vector<float> lengthsOf(const ClothShape& shape, const btSoftBody& body) {
+/// Bullet takes what it has not seen yet as it is now.
+std::vector<float> restLengthsOf(const ClothShape& shape, const btSoftBody& body) {
   std::vector<float> lengths;
-  for (const auto& link : shape.links) lengths.push_back(distance(body, link));
+  for (std::size_t i = 0; i < shape.links.size(); ++i) {
+    lengths.push_back(body.m_bUpdateRtCst ? distance(body, shape.links[i])
+                                          : static_cast<float>(body.m_links[static_cast<int>(i)].m_rl));
+  }
   return lengths;
 }
 
@@ -164,7 +168,7 @@ FrameSampler::FrameSampler(const SceneWorld& world) : m_scenery(sceneryOf(world.
   for (std::size_t i = 0; i < world.bodies().size(); ++i) {
     const btSoftBody& body = *world.bodies()[i];
     m_cloths.push_back(shapeOf(world.scene().cloths[i], body));
-    m_restLengths.push_back(lengthsOf(m_cloths.back(), body));
+    m_restLengths.push_back(restLengthsOf(m_cloths.back(), body));
   }
 }
 

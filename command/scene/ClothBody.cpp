@@ -26,6 +26,7 @@ std::unique_ptr<btSoftBody> makeClothBody(const ClothScene& cloth, btSoftBodyWor
   body->getCollisionShape()->setMargin(btScalar(cloth.margin));
   if (cloth.clusters > 0) body->generateClusters(cloth.clusters);
   body->setSelfCollision(cloth.selfCollision);
+  if (cloth.meetsWhatMoves) body->m_cfg.kKHR = 1;
   return body;
 }
 

@@ -112,9 +112,7 @@ class DressingRoom {
 const std::vector<std::vector<btVector3>>& dressedPlaces(const Scene& scene) {
   std::vector<std::vector<btVector3>>& places = scene.dressed->places;
   if (!places.empty()) return places;
-  const bool isSewn = std::any_of(scene.cloths.begin(), scene.cloths.end(),
-                                  [](const ClothScene& cloth) { return cloth.garment.has_value(); });
-  places = isSewn ? DressingRoom(scene).places() : std::vector<std::vector<btVector3>>(scene.cloths.size());
+  places = scene.hasGarments() ? DressingRoom(scene).places() : std::vector<std::vector<btVector3>>(scene.cloths.size());
   return places;
 }
 

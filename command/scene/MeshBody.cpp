@@ -81,6 +81,7 @@ class RestLengthsOf {
 /// Bullet takes each link's length as it is now, in its next step or here; ours come after.
 void setRestLengths(btSoftBody& body, const std::map<std::pair<int, int>, double>& lengths) {
   body.updateConstants();
+  body.m_bUpdateRtCst = false;
   const btSoftBody::Node* const first = &body.m_nodes[0];
   for (int k = 0; k < body.m_links.size(); ++k) {
     btSoftBody::Link& link = body.m_links[k];

@@ -73,6 +73,10 @@ double ClothScene::fastestPush() const {
   return speed;
 }
 
+bool Scene::hasGarments() const {
+  return std::any_of(cloths.begin(), cloths.end(), [](const ClothScene& cloth) { return cloth.garment.has_value(); });
+}
+
 btVector3 Scene::up() const { return gravity.length() > 0 ? btVector3(-gravity.normalized()) : btVector3(0, 1, 0); }
 
 std::string nameOf(WorldKind world) { return nameIn(worldNames(), world); }

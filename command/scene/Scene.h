@@ -95,6 +95,9 @@ struct ClothScene {
   double margin = 0.02;           ///< of collision [m]
   std::optional<int> collisions;  ///< btSoftBody::fCollision; none: the world's usual ones
   bool selfCollision = false;     ///< btSoftBody::setSelfCollision()
+  /// Among colliders that move, which would go through the cloth with Bullet's hardness of contacts with what is static
+  /// or kinematic, btSoftBody::Config::kKHR = 0.1; it is 1 then.
+  bool meetsWhatMoves = false;
   int clusters = 0;               ///< btSoftBody::generateClusters(); 0: none
   std::optional<TwistScene> twist;
   std::optional<MotionScene> motion;
@@ -150,6 +153,7 @@ struct Scene {
   std::vector<std::string> hints;  ///< what is allowed and rarely meant, one line each
 
   SolverKind solver() const { return clothSolver ? SolverKind::wetcloth : SolverKind::bullet; }
+  bool hasGarments() const;
   /// Against gravity, of length 1; y without gravity.
   btVector3 up() const;
 };

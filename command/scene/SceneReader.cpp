@@ -231,6 +231,8 @@ ClothScene readCloth(JsonCursor cursor, Scene& scene, const EffectCatalogue& cat
   readNumber(cursor, "friction", Range::fraction(), cloth.friction);
   readDamping(cursor, scene.world, cloth);
   readNumber(cursor, "margin_m", Range::positive(), cloth.margin);
+  cloth.meetsWhatMoves = std::any_of(scene.colliders.begin(), scene.colliders.end(),
+                                     [](const Collider& collider) { return collider.motion.has_value(); });
   readCollisions(cursor, cloth);
   if (const auto twist = cursor.find("twist")) cloth.twist = readTwist(*twist, cloth);
   if (const auto motion = cursor.find("motion")) cloth.motion = readMotion(*motion, cloth);

@@ -42,14 +42,18 @@ bool isFinite(const btVector3& vector) { return std::isfinite(vector.length2());
 
 SceneWorld::SceneWorld(const Scene& scene, Kind kind)
     : m_scene(scene), m_drops(scene), m_world(settingsOf(scene, kind)) {
-  if (kind == Kind::wet) m_wetWorld = &m_world.wet();
   if (scene.water) addWater(*scene.water);
   for (const Collider& collider : scene.colliders) addCollider(collider);
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
     const std::string pointer = "/cloths/" + std::to_string(i);
     atPointer(scene, pointer, [&] { addCloth(i, kind); });
-    if (kind == Kind::plainBullet) continue;
-    atPointer(scene, pointer, [&] { m_cloths.push_back(&m_wetWorld->add(m_bodies.back(), scene.cloths[i].fabric)); });
+  }
+  if (scene.hasGarments()) settle();
+  if (kind == Kind::plainBullet) return;
+  m_wetWorld = &m_world.wet();
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    const std::string pointer = "/cloths/" + std::to_string(i);
+    atPointer(scene, pointer, [&] { m_cloths.push_back(&m_wetWorld->add(*m_bodies[i], scene.cloths[i].fabric)); });
     m_cloths.back()->setPace(scene.cloths[i].pace);
     addEffects(i, *m_cloths.back());
     m_cloths.back()->setSaturation(scene.cloths[i].initialSaturation);
@@ -70,6 +74,15 @@ void SceneWorld::addCloth(std::size_t index, Kind kind) {
   if (cloth.twist) m_twists.emplace_back(added, std::get<wetcloth::ClothPatch>(cloth.shape), *cloth.twist);
   if (cloth.motion) m_motions.emplace_back(added, *cloth.motion);
   m_bodies.push_back(&added);
+}
+
+/// The last step of dressing, in this world: so the guard knows garments and bodies before these begin to move.
+void SceneWorld::settle() {
+  m_world.substep(btScalar(substep()));
+  for (std::size_t i = 0; i < m_bodies.size(); ++i) {
+    if (!m_scene.cloths[i].garment) placeNodes(*m_bodies[i], m_scene.cloths[i].nodePositions());
+    for (int n = 0; n < m_bodies[i]->m_nodes.size(); ++n) m_bodies[i]->m_nodes[n].m_v.setZero();
+  }
 }
 
 /// Bullet makes the tree by itself, but never ends for cloth in several parts, and its time grows as the square of the

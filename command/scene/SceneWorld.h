@@ -67,6 +67,7 @@ class SceneWorld {
 
  private:
   void addCloth(std::size_t index, Kind kind);
+  void settle();
   void addFaceTree(btSoftBody& body) const;
   double substep() const { return m_scene.step / m_scene.substeps; }
   double sagOf(std::size_t cloth) const;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/solver/ShapeDistance.h"
+
+#include <LinearMath/btVector3.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// The planes of a convex polyhedron, so that a processor measures several of them at once.
+class HullPlanes {
+ public:
+  /// One plane more. @param normal  outwards, of length 1  @param offset  of the plane along it [m]
+  void add(const std::array<double, 3>& normal, double offset);
+  bool isEmpty() const { return m_count == 0; }
+  /// Of a point in the hull's own frame [m]: from the plane that it is farthest outside of, or least inside. So it is
+  /// exact inside and before a face; before an edge or a corner, less than the distance. Not of an empty one.
+  ShapeDistance distanceTo(const btVector3& point) const;
+
+ private:
+  static constexpr std::size_t kLanes = 8;
+  /// Normals and offsets of eight planes.
+  struct Block {
+    btScalar normal[3][kLanes];
+    btScalar offset[kLanes];
+  };
+
+  std::vector<Block> m_blocks;  // the last one is filled up with its last plane
+  std::size_t m_count = 0;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
