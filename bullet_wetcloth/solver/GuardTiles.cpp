@@ -174,14 +174,23 @@ void GuardTiles::lookAtTiles(std::size_t a, std::size_t b) {
     return lookAtSquares(clothA, {0, tileA / meshA.tileColumns, tileA % meshA.tileColumns}, clothB,
                          {0, tileB / meshB.tileColumns, tileB % meshB.tileColumns});
   }
-  const GuardMesh::Tile& partsA = meshA.tiles[toSize(tileA)];
-  const GuardMesh::Tile& partsB = meshB.tiles[toSize(tileB)];
-  for (int k = partsA.cell; k < partsA.endCell; ++k) {
-    const GuardBox& box = m_bounds.cell(clothA, k);
-    if (!box.overlaps(m_bounds.tile(clothB, tileB))) continue;
-    for (int j = a == b ? k : partsB.cell; j < partsB.endCell; ++j) {
-      if (box.overlaps(m_bounds.cell(clothB, j))) lookAtCells(clothA, k, clothB, j);
+  findCellsIn(clothA, tileA, m_bounds.tile(clothB, tileB), m_cells[0]);
+  findCellsIn(clothB, tileB, m_bounds.tile(clothA, tileA), m_cells[1]);
+  for (const NearCell& one : m_cells[0]) {
+    for (const NearCell& other : m_cells[1]) {
+      if (!one.box->overlaps(*other.box) || (a == b && other.cell < one.cell)) continue;
+      lookAtCells(clothA, one.cell, clothB, other.cell);
     }
+  }
+}
+
+// Of a tile those that may meet what is in this box.
+void GuardTiles::findCellsIn(const Cloth& cloth, int tile, const GuardBox& box, std::vector<NearCell>& cells) {
+  cells.clear();
+  const GuardMesh::Tile& parts = cloth.mesh->tiles[toSize(tile)];
+  for (int cell = parts.cell; cell < parts.endCell; ++cell) {
+    const GuardBox& bounds = m_bounds.cell(cloth, cell);
+    if (bounds.overlaps(box)) cells.push_back({cell, &bounds});
   }
 }
 

@@ -43,6 +43,11 @@ class GuardTiles {
     int index;  // in the cloth's mesh
   };
 
+  struct NearCell {
+    int cell;
+    const GuardBox* box;
+  };
+
   // Of a grid.
   struct Square {
     int level;
@@ -61,6 +66,7 @@ class GuardTiles {
   void lookAtNearTiles(std::size_t a, std::size_t b);
   bool areFlat(const Cloth& cloth, int tileA, int tileB);
   void lookAtTiles(std::size_t a, std::size_t b);
+  void findCellsIn(const Cloth& cloth, int tile, const GuardBox& box, std::vector<NearCell>& cells);
   void lookAtSquares(const Cloth& a, const Square& squareA, const Cloth& b, const Square& squareB);
   void lookAtCells(const Cloth& a, int cellA, const Cloth& b, int cellB);
   void verticesAndFaces(const Cloth& a, int cellA, const Cloth& b, int cellB);
@@ -73,6 +79,7 @@ class GuardTiles {
   std::vector<bool> m_isNew;  // of each tile: what is expected of its nodes
   std::vector<int> m_sorted;  // tiles, by where their boxes begin along an axis
   int m_axis = 0;
+  std::vector<NearCell> m_cells[2];  // of two tiles those that may meet
   Scope m_scope = {};
   GuardCandidates* m_pairs = nullptr;
   int m_pairOfTiles[2] = {0, 0};  // that are looked at

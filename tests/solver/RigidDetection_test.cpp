@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/solver/RigidDetection.h"
 
+#include "bullet_wetcloth/solver/HullPlanes.h"
 #include "bullet_wetcloth/solver/ShapeDistance.h"
 #include "tests/solver/SolverScene.h"
 #include "tests/support/BodyScene.h"
@@ -10,7 +11,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -41,7 +44,43 @@ TEST(ShapeDistance, OfASphereAndAPlane) {
   EXPECT_NEAR(double(MeasuredShape(sphere).distanceTo(btVector3(0, 0, 0)).normal.length()), 1, 1e-6);
   const btStaticPlaneShape plane(btVector3(0, 1, 0), btScalar(0.5));
   expectDistance(plane, btVector3(7, 2, 0), 1.5, btVector3(0, 1, 0));
-  EXPECT_FALSE(MeasuredShape::isOne(btCapsuleShape(1, 1)));
+  EXPECT_FALSE(MeasuredShape::isOne(btConeShape(1, 1)));
+}
+
+TEST(ShapeDistance, OfACapsule) {
+  const btCapsuleShapeZ shape(1, 4);  // 4 m between the middles of its ends
+  expectDistance(shape, btVector3(0, 3, 2), 2, btVector3(0, 1, 0));
+  expectDistance(shape, btVector3(3, 0, 6), 4, btVector3(btScalar(0.6), 0, btScalar(0.8)));
+  expectDistance(shape, btVector3(0, btScalar(0.5), -1), -0.5, btVector3(0, 1, 0));
+  EXPECT_NEAR(double(MeasuredShape(shape).distanceTo(btVector3(0, 0, 1)).distance), -1, 1e-6);
+}
+
+TEST(ShapeDistance, OfARoundCylinder) {
+  const btCylinderShape shape(btVector3(1, 2, 1));
+  expectDistance(shape, btVector3(3, 1, 0), 2, btVector3(1, 0, 0));
+  expectDistance(shape, btVector3(0, -5, 0), 3, btVector3(0, -1, 0));
+  expectDistance(shape, btVector3(0, 6, -4), 5, btVector3(0, btScalar(0.8), btScalar(-0.6)));
+  expectDistance(shape, btVector3(btScalar(0.9), 0, 0), -0.1, btVector3(1, 0, 0));
+  EXPECT_FALSE(MeasuredShape::isOne(btCylinderShape(btVector3(1, 2, 3))));
+}
+
+// Of a cube as of a box, but for what is before an edge, where it is no farther than the box.
+TEST(HullPlanes, OfACube) {
+  wetcloth::HullPlanes planes;
+  EXPECT_TRUE(planes.isEmpty());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      std::array<double, 3> normal{0, 0, 0};
+      normal[std::size_t(axis)] = side;
+      planes.add(normal, 1);
+    }
+  }
+  const MeasuredShape box(btBoxShape(btVector3(1, 1, 1)));
+  for (const btVector3& point : {btVector3(3, 0, 0), btVector3(0, btScalar(-0.8), 0), btVector3(0.5, 0.25, -7)}) {
+    EXPECT_NEAR(double(planes.distanceTo(point).distance), double(box.distanceTo(point).distance), 1e-6);
+    EXPECT_LT(double((planes.distanceTo(point).normal - box.distanceTo(point).normal).length()), 1e-6);
+  }
+  EXPECT_NEAR(double(planes.distanceTo(btVector3(4, 5, 0)).distance), 4, 1e-6);  // the box is 5 m away
 }
 
 using ShapeMaker = std::function<std::unique_ptr<btCollisionShape>()>;
@@ -51,12 +90,24 @@ struct Ground {
   double top;  // of the shape at the middle of the cloth, over its centre [m]
 };
 
+// Bullet's margin around it is a part of it.
+std::unique_ptr<btCollisionShape> hullOfABox(double x, double y, double z) {
+  auto hull = std::make_unique<btConvexHullShape>();
+  hull->setMargin(btScalar(0.01));
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto side = [&](int bit, double half) { return btScalar((corner & bit) != 0 ? half - 0.01 : 0.01 - half); };
+    hull->addPoint(btVector3(side(1, x), side(2, y), side(4, z)));
+  }
+  return hull;
+}
+
 const std::vector<Ground>& grounds() {
   static const std::vector<Ground> all = {
       {"box", [] { return box(2, 0.5, 2); }, 0.5},
       {"plane", [] { return std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0.5)); }, 0.5},
       {"sphere", [] { return std::make_unique<btSphereShape>(btScalar(0.5)); }, 0.5},
       {"capsule", [] { return std::make_unique<btCapsuleShapeX>(btScalar(0.5), 3); }, 0.5},
+      {"hull", [] { return hullOfABox(2, 0.5, 2); }, 0.5},
       {"cylinder", [] { return std::make_unique<btCylinderShape>(btVector3(2, btScalar(0.5), 2)); }, 0.5},
   };
   return all;
