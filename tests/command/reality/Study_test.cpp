@@ -88,6 +88,15 @@ TEST(RealityStudy, TellsNoStandardErrorOfWhatTheDataCannotTell) {
   EXPECT_FALSE(json.contains("standard_error"));
 }
 
+TEST(RealityStudy, TellsThatASearchDidNotConverge) {
+  Study study = reality::carryOut(proportional(2, 2), tellNobody);
+  EXPECT_EQ(reality::jsonOf(study).at("groups")[0].at("converged"), true);
+  EXPECT_EQ(reality::textOf(study).find("did not converge"), std::string::npos);
+  study.groups[0].hasConverged = false;
+  EXPECT_EQ(reality::jsonOf(study).at("groups")[0].at("converged"), false);
+  EXPECT_NE(reality::textOf(study).find("did not converge"), std::string::npos);
+}
+
 TEST(RealityStudy, ModelsMeetWhatTheyHaveMade) {
   struct Case {
     Plan plan;
