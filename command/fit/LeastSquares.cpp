@@ -89,9 +89,9 @@ struct Minimum {
 };
 
 bool isConverged(Eigen::LevenbergMarquardtSpace::Status status) {
-  using namespace Eigen::LevenbergMarquardtSpace;
-  return status == RelativeReductionTooSmall || status == RelativeErrorTooSmall ||
-         status == RelativeErrorAndReductionTooSmall || status == CosinusTooSmall;
+  namespace ends = Eigen::LevenbergMarquardtSpace;
+  return status == ends::RelativeReductionTooSmall || status == ends::RelativeErrorTooSmall ||
+         status == ends::RelativeErrorAndReductionTooSmall || status == ends::CosinusTooSmall;
 }
 
 class Search {

@@ -23,6 +23,7 @@ class MeasuredTable {
 
   const std::string& file() const { return m_file; }
   std::size_t rows() const { return m_rows.size(); }
+  const std::vector<std::string>& columns() const { return m_columns; }
   bool has(const std::string& column) const;
 
   /// A column's cells as they are. Throws InputError, with the columns that there are, when there is none of that name.

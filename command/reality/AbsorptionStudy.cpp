@@ -20,7 +20,7 @@ double soak(double timeConstant) {
   settings.fabric.timeConstant = timeConstant;
   accuracy::Specimen sample(settings);
   sample.cloth().add<wetcloth::Absorption>();
-  for (int i = 0; i < static_cast<int>(soakedFor / soakStep + 0.5); ++i) sample.substep(soakStep);
+  for (int i = 0; i < std::lround(soakedFor / soakStep); ++i) sample.substep(soakStep);
   return sample.cloth().saturation(0) * settings.fabric.capacity;
 }
 

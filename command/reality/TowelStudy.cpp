@@ -56,7 +56,7 @@ void requireKnownTowels(const command::MeasuredTable& table) {
 
 /// The one row of a towel in a run.
 command::MeasuredTable rowOf(const command::MeasuredTable& run, const std::string& towel) {
-  const command::MeasuredTable row = run.where("towel", towel);
+  command::MeasuredTable row = run.where("towel", towel);
   row.requireRows(1, "of each towel in each run");
   if (row.rows() > 1) row.reject(1, "towel", "is there twice in this run");
   return row;

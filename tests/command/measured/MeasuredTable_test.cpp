@@ -27,7 +27,7 @@ std::string complaintOf(const std::function<void()>& action) {
   try {
     action();
   } catch (const command::InputError& error) {
-    const std::string text = error.what();
+    std::string text = error.what();
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
     EXPECT_NE(text.find(".csv"), std::string::npos) << text;
     return text;
