@@ -33,11 +33,11 @@ bool hasControls(const std::string& text) {
 
 const char* textOf(MeasuredTable::Allowed allowed) {
   switch (allowed) {
-    case MeasuredTable::Allowed::notNegative: return "must be finite and >= 0";
-    case MeasuredTable::Allowed::positive: return "must be finite and > 0";
+    case MeasuredTable::Allowed::notNegative: return "must be a finite number >= 0, with a point";
+    case MeasuredTable::Allowed::positive: return "must be a finite number > 0, with a point";
     case MeasuredTable::Allowed::any: break;
   }
-  return "must be a finite number";
+  return "must be a finite number, with a point";
 }
 
 /// Of digits, as people write it: no "inf", no hexadecimal one. NaN when it is none.

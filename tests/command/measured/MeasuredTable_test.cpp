@@ -90,8 +90,8 @@ TEST(MeasuredTable, NamesLineAndColumnOfABadCell) {
   for (const char* const cell : {"wet", "nan", "inf", "-inf", "", "1.5x", "1 2", "1e999", "0x1p3", "1d5"}) {
     expectWords(at(cell), {"line 4, column 2 (height_m) = \"" + std::string(cell) + "\"", "must be a finite number"});
   }
-  expectWords(at("-1", Allowed::notNegative), {"line 4, column 2", "must be finite and >= 0"});
-  expectWords(at("0", Allowed::positive), {"line 4, column 2", "must be finite and > 0"});
+  expectWords(at("-1", Allowed::notNegative), {"line 4, column 2", "must be a finite number >= 0, with a point"});
+  expectWords(at("0", Allowed::positive), {"line 4, column 2", "must be a finite number > 0, with a point"});
   expectWords(at("\x01\xff"), {"\\x01\\xff"});
 }
 
