@@ -97,6 +97,19 @@ TEST(RealityStudy, TellsThatASearchDidNotConverge) {
   EXPECT_NE(reality::textOf(study).find("did not converge"), std::string::npos);
 }
 
+// Whichever half of it was fitted.
+TEST(RealityStudy, TheLineThatPredictsGoesOnWhereTheFittedOneEnds) {
+  Plan plan = proportional(2, 2);
+  plan.isOverTime = true;
+  for (const bool isFirstFitted : {true, false}) {
+    for (std::size_t i = 0; i < 8; ++i) plan.groups[0][0].isFitted[i] = (i < 4) == isFirstFitted;
+    const command::Plot plot = reality::plotOf(reality::carryOut(plan, tellNobody));
+    const std::vector<double>& fitted = plot.series[0].x;
+    const std::vector<double>& predicted = plot.series[1].x;
+    EXPECT_EQ(isFirstFitted ? fitted.back() : fitted.front(), isFirstFitted ? predicted.front() : predicted.back());
+  }
+}
+
 TEST(RealityStudy, ModelsMeetWhatTheyHaveMade) {
   struct Case {
     Plan plan;
