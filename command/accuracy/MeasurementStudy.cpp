@@ -46,7 +46,9 @@ SeenHeights seenHeights() {
                                             .where("needles", "108")
                                             .where("fibre", "nylon")
                                             .where("knit", "flat")
-                                            .where("series", "ID");
+                                            .where("series", "ID")
+                                            .sortedBy("time_s");
+  strips.requireRows(2, "to have a range");
   return {strips.increasing("time_s"), strips.numbers("height_m")};
 }
 

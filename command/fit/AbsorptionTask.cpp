@@ -38,6 +38,10 @@ Task absorptionTask(const command::MeasuredTable& table, const wetcloth::Fabric&
   if (!(most > 0)) throw command::InputError(table.file() + ": water_kg_kg is 0 in every row");
   task.unknowns = {{"capacity_kg_per_kg", most, fabric.capacity},
                    {"time_constant_s", timeOfTwoThirds(task, most), fabric.timeConstant}};
+  task.ranges = {
+      {"time_s", 0.01, 1e5, "cloth that soaks is full in seconds, at most in a day"},
+      {"water_kg_kg", 0.01, 40, "cloth holds 0.4 (polyester) to 4 (terry) times its mass of water, fleece up to 40"},
+      {"time_constant_s", 0.01, 1000, "scoured cotton soaks in tenths of a second, greige in many minutes"}};
   task.curve = soaked;
   task.predict = [times = task.at](const std::vector<double>& unknowns) { return soaked(unknowns, times); };
   task.cloth = [fabric](const std::vector<Estimate>& estimates) -> nlohmann::ordered_json {

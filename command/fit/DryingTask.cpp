@@ -66,6 +66,10 @@ Task dryingTask(const command::MeasuredTable& table, const wetcloth::Fabric& fab
   task.unknowns = {{"initial_water_kg_kg", start, fabric.capacity},
                    {"rate_kg_kg_s", first, usualRate},
                    {"critical_water_kg_kg", start / 3, usualCritical}};
+  task.ranges = {
+      {"time_s", 10, 1e6, "cloth dries in minutes to days"},
+      {"water_kg_kg", 0.01, 40, "cloth holds 0.4 (polyester) to 4 (terry) times its mass of water, fleece up to 40"},
+      {"rate_kg_kg_s", 1e-6, 0.01, "its own mass of water leaves a cloth in minutes to days"}};
   task.curve = dried;
   task.predict = [times = task.at](const std::vector<double>& unknowns) { return dried(unknowns, times); };
   task.cloth = [fabric](const std::vector<Estimate>& estimates) { return dryingCloth(fabric, estimates); };

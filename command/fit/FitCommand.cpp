@@ -2,8 +2,10 @@
 #include "command/fit/FitCommand.h"
 
 #include "command/fit/FitReport.h"
+#include "command/fit/FitWarnings.h"
 
 #include "command/cli/CommonOptions.h"
+#include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/plot/PlotFiles.h"
 
@@ -11,6 +13,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -37,18 +40,37 @@ void writePlots(command::PlotFiles& files, const Task& task, const Fit& fit) {
   std::cerr << "wetcloth: no gnuplot, so no pictures, only tables (Debian: apt install gnuplot-nox)\n";
 }
 
+/// Where the model fails for readings that cloth cannot have, these are why.
+Fit fitOf(const Task& task) {
+  try {
+    return fitLeastSquares(task.unknowns, task.predict, task.readings, task.roughness);
+  } catch (const std::runtime_error& error) {
+    const std::vector<std::string> doubts = doubtsOf(task);
+    if (doubts.empty()) throw;
+    throw command::RunError(error.what() + ("; " + doubts.front()));
+  }
+}
+
+void requireConverged(const std::string& file, const Fit& fit) {
+  if (fit.hasConverged) return;
+  throw command::RunError(file + ": the fit did not converge in " + std::to_string(fitSteps) +
+                          " steps, so do not use its values: add readings where the curve bends, leave out those that "
+                          "are not of it; --out DIR draws them");
+}
+
 void fitToFile(const FitOptions& options) {
   command::JsonOutput output(options.json);
   const command::MeasuredTable table(options.file);
   const Task task = command::valueOf(taskNames(), options.of)(table, wetcloth::Fabric::byName(options.fabric));
   std::optional<command::PlotFiles> plots;  // complains before the fit, which may take its time
   if (!options.directory.empty()) plots.emplace(options.directory);
-  const Fit fit = fitLeastSquares(task.unknowns, task.predict, task.readings, task.roughness);
+  const Fit fit = fitOf(task);
   if (!output.ownsStandardOutput()) std::fputs(textOf(task, fit).c_str(), stdout);
   if (plots) writePlots(*plots, task, fit);
   nlohmann::ordered_json json = jsonOf(task, fit);
   json["file"] = options.file;
   output.write(json);
+  requireConverged(options.file, fit);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "command/fit/FitReport.h"
 
+#include "command/fit/FitResiduals.h"
+#include "command/fit/FitWarnings.h"
 #include "command/plot/Plots.h"
 
 #include <algorithm>
@@ -24,37 +26,9 @@ std::string remarkOn(const Estimate& estimate) {
                            : "; this value fits, the usual one does not, and the others hold with it");
 }
 
-std::vector<double> residualsOf(const Task& task, const Fit& fit) {
-  std::vector<double> residuals;
-  for (std::size_t i = 0; i < fit.model.size(); ++i) residuals.push_back(task.readings.values[i] - fit.model[i]);
-  return residuals;
-}
-
-double rootMeanSquare(const std::vector<double>& numbers) {
-  double sum = 0;
-  for (const double number : numbers) sum += number * number;
-  return std::sqrt(sum / static_cast<double>(numbers.size()));
-}
-
 double rangeOf(const std::vector<double>& values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   return *most - *least;
-}
-
-double standardDeviation(const std::vector<double>& numbers) {
-  double mean = 0;
-  for (const double number : numbers) mean += number / static_cast<double>(numbers.size());
-  std::vector<double> away;
-  for (const double number : numbers) away.push_back(number - mean);
-  return rootMeanSquare(away);
-}
-
-/// A law that leaves half of what a constant would leave says little about these readings; empty when it says more.
-std::string warningOf(const Task& task, const Fit& fit) {
-  const double scatter = standardDeviation(task.readings.values);
-  if (rootMeanSquare(residualsOf(task, fit)) < 0.5 * scatter) return "";
-  return "this law does not describe these readings; are columns and units right (" + task.x.column + ", " +
-         task.y.column + ")?";
 }
 
 double rounded(double number) {
@@ -120,12 +94,12 @@ Json jsonOf(const Task& task, const Fit& fit) {
     parameters.push_back(parameter);
   }
   const std::vector<double> residuals = residualsOf(task, fit);
-  const std::string warning = warningOf(task, fit);
   return {{"of", task.name},
           {"law", task.law},
           {"readings", task.at.size()},
           {"parameters", parameters},
-          {"warning", warning.empty() ? Json() : Json(warning)},
+          {"converged", fit.hasConverged},
+          {"warnings", warningsOf(task, fit)},
           {"residual_rms", rootMeanSquare(residuals)},
           {"residual_rms_of_range", rootMeanSquare(residuals) / rangeOf(task.readings.values)},
           {"reduced_chi_squared", task.readings.uncertainties.empty() ? Json() : Json(fit.reducedChiSquared)},
@@ -159,8 +133,7 @@ std::string textOf(const Task& task, const Fit& fit) {
     std::snprintf(line, sizeof line, "; chi squared %.2g for each degree of freedom", fit.reducedChiSquared);
     text += line;
   }
-  const std::string warning = warningOf(task, fit);
-  if (!warning.empty()) text += "\n  warning: " + warning;
+  for (const std::string& warning : warningsOf(task, fit)) text += "\n  warning: " + warning;
   return text + "\n\nFor a cloth of a scene:\n" + rounded(task.cloth(fit.estimates)).dump(2) + "\n";
 }
 

@@ -85,7 +85,14 @@ class Residuals {
 struct Minimum {
   std::vector<double> values;
   double chiSquared;
+  bool hasConverged;
 };
+
+bool isConverged(Eigen::LevenbergMarquardtSpace::Status status) {
+  namespace ends = Eigen::LevenbergMarquardtSpace;
+  return status == ends::RelativeReductionTooSmall || status == ends::RelativeErrorTooSmall ||
+         status == ends::RelativeErrorAndReductionTooSmall || status == ends::CosinusTooSmall;
+}
 
 class Search {
  public:
@@ -95,12 +102,13 @@ class Search {
   Minimum from(const std::vector<double>& start, const std::vector<bool>& isFree) const {
     Residuals residuals(m_predict, m_readings, m_roughness, start, isFree);
     VectorXd logarithms = residuals.atStart();
+    bool hasConverged = true;
     if (residuals.inputs() > 0) {
       Eigen::LevenbergMarquardt<Residuals> solver(residuals);
-      solver.parameters.maxfev = 60;
+      solver.parameters.maxfev = fitSteps;
       solver.parameters.factor = 0.1;  // no first step further than by a factor of e
       solver.parameters.xtol = solver.parameters.ftol = 1e-3 * m_roughness;
-      solver.minimize(logarithms);
+      hasConverged = isConverged(solver.minimize(logarithms));
     }
     VectorXd left;
     residuals(logarithms, left);
@@ -108,7 +116,7 @@ class Search {
     if (!std::isfinite(chiSquared)) {
       throw command::RunError("wetcloth: chi squared is not finite, the uncertainties are too small");
     }
-    return {residuals.valuesAt(logarithms), chiSquared};
+    return {residuals.valuesAt(logarithms), chiSquared, hasConverged};
   }
 
   /// With one more of the values set.
@@ -156,6 +164,10 @@ double clearRaise(std::size_t freedom, const Readings& readings) {
   return freedom <= 3 ? ofFew[freedom - 1] : 4 * (1 + 2.6 / static_cast<double>(freedom - 1));
 }
 
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 /// The fit as it goes: which unknowns are still free.
 class Telling {
  public:
@@ -167,7 +179,7 @@ class Telling {
         m_estimates(unknowns.size()) {
     std::vector<double> start;
     for (const Unknown& unknown : unknowns) start.push_back(unknown.start);
-    m_best = search.from(start, m_isFree);
+    m_best = noted(search.from(start, m_isFree));
     m_least = m_best.chiSquared;
     m_unit = unitOf(m_least, freedomLeft(), readings);
     m_clear = clearRaise(freedomLeft(), readings);
@@ -202,15 +214,20 @@ class Telling {
       m_estimates[i].standardError = m_best.values[i] * std::sqrt(unit * covariance(place, place));
       ++place;
     }
-    return {m_estimates, m_search.modelOf(m_best), m_best.chiSquared / static_cast<double>(freedom)};
+    return {m_estimates, m_search.modelOf(m_best), m_best.chiSquared / static_cast<double>(freedom), m_haveConverged};
   }
 
  private:
+  Minimum noted(const Minimum& minimum) {
+    m_haveConverged = m_haveConverged && minimum.hasConverged;
+    return minimum;
+  }
+  Minimum with(std::size_t which, double value) { return noted(m_search.with(m_best, m_isFree, which, value)); }
   std::size_t freedomLeft() const {
     return m_readings.values.size() - static_cast<std::size_t>(std::count(m_isFree.begin(), m_isFree.end(), true));
   }
-  double raisedBy(std::size_t which, double value) const {
-    return (m_search.with(m_best, m_isFree, which, value).chiSquared - m_best.chiSquared) / m_unit;
+  double raisedBy(std::size_t which, double value) {
+    return (with(which, value).chiSquared - m_best.chiSquared) / m_unit;
   }
   /// By how much the less of half and twice the value raises chi squared.
   double look(std::size_t which) {
@@ -223,9 +240,9 @@ class Telling {
   }
   void settle(std::size_t which) {
     const double usual = m_unknowns[which].usual;
-    const Minimum atUsual = m_search.with(m_best, m_isFree, which, usual);
+    const Minimum atUsual = with(which, usual);
     m_estimates[which].isUsual = atUsual.chiSquared - m_least <= m_clear * m_unit;
-    m_best = m_estimates[which].isUsual ? atUsual : m_search.with(m_best, m_isFree, which, m_best.values[which]);
+    m_best = m_estimates[which].isUsual ? atUsual : with(which, m_best.values[which]);
     m_isFree[which] = false;
   }
 
@@ -235,6 +252,7 @@ class Telling {
   std::vector<bool> m_isFree;
   std::vector<Estimate> m_estimates;
   Minimum m_best;
+  bool m_haveConverged = true;
   // With all of them free, so that several usual values together do not fit worse than one may.
   double m_least;
   double m_unit;
@@ -246,8 +264,8 @@ class Telling {
 Fit fitLeastSquares(const std::vector<Unknown>& unknowns, const Predict& predict, const Readings& readings,
                     double roughness) {
   if (readings.values.size() <= unknowns.size()) {
-    throw command::InputError("wetcloth: " + std::to_string(unknowns.size()) + " numbers cannot be fitted to " +
-                              std::to_string(readings.values.size()) + " readings, there must be more");
+    throw command::InputError("wetcloth: " + counted(unknowns.size(), "number") + " cannot be fitted to " +
+                              counted(readings.values.size(), "reading") + ", there must be more");
   }
   const Search search(predict, readings, roughness);
   Telling telling(unknowns, search, readings);

@@ -31,6 +31,7 @@ struct Fit {
   std::vector<double> model;        ///< at each reading
   /// Chi squared over its degrees of freedom; without stated uncertainties the variance of a reading.
   double reducedChiSquared = 0;
+  bool hasConverged = true;  ///< each search that it took; else other values may fit better
 };
 
 /// Readings of one quantity.
@@ -41,6 +42,9 @@ struct Readings {
 
 /// The readings that the unknowns' values would give.
 using Predict = std::function<std::vector<double>(const std::vector<double>& unknowns)>;
+
+/// Most steps of one search.
+inline constexpr int fitSteps = 60;
 
 /// The values, all > 0, with the least sum of squares of (model - reading) / uncertainty, by Levenberg and Marquardt in
 /// the values' logarithms.
@@ -53,7 +57,7 @@ using Predict = std::function<std::vector<double>(const std::vector<double>& unk
 /// Throws command::InputError when there are no more readings than unknowns; command::RunError when the model gives
 /// what is not finite, or chi squared is not.
 /// @param roughness  over how much of a logarithm the model is differenced: more than its rounding and its mesh make of
-///     it. The search ends when it moves by a thousandth of that.
+///     it. The search ends when it moves by a thousandth of that, or unfinished after fitSteps steps.
 Fit fitLeastSquares(const std::vector<Unknown>& unknowns, const Predict& predict, const Readings& readings,
                     double roughness = 0.01);
 

@@ -41,6 +41,10 @@ Task stretchTask(const command::MeasuredTable& table, const wetcloth::Fabric& fa
   if (!(*most > 0)) table.reject(0, "strain", "is 0, as in every row");
   const double load = task.at[static_cast<std::size_t>(most - task.readings.values.begin())];
   task.unknowns = {{"stiffness_n_m", load / *most, usualStiffness()}};
+  task.ranges = {{"load_n_m", 1e-3, 1e6, "1e6 N/m would tear any cloth, 1e-3 N/m is less than its own weight"},
+                 {"strain", 1e-5, 3, "cloth tears before it is four times as long; a strain is no percentage"},
+                 {"stiffness_n_m", 10, 1e7,
+                  "at 10 N/m a metre of cloth would stretch by 7 % of its own weight, 1e7 N/m is glass"}};
   const double usualWet = wetcloth::WetStiffness::Parameters{}.wetStretch;
   if (isWet) task.unknowns.push_back({"wet_stretch", usualWet, usualWet});
   task.predict = [loads = task.at, saturations, isWet](const std::vector<double>& unknowns) {

@@ -19,6 +19,14 @@ struct Axis {
   std::string label;   ///< with the unit in brackets: time [s]
 };
 
+/// Between what and what a number of cloth lies; beyond it, readings are mostly in another unit.
+struct ClothRange {
+  std::string name;  ///< of a column, whose greatest reading is meant, or of an unknown
+  double least;
+  double most;
+  std::string because;
+};
+
 /// Measurements of one kind, and the law that is fitted to them.
 struct Task {
   std::string name;  ///< what --of says
@@ -28,7 +36,8 @@ struct Task {
   std::vector<double> at;  ///< of the readings, on the first axis
   Readings readings;
   std::vector<Unknown> unknowns;
-  double roughness = 0.01;  ///< of the law: see fitLeastSquares()
+  std::vector<ClothRange> ranges;  ///< those of columns first
+  double roughness = 0.01;         ///< of the law: see fitLeastSquares()
   /// The law's readings at other places of the first axis, for a curve; empty: the law needs more than that.
   std::function<std::vector<double>(const std::vector<double>& unknowns, const std::vector<double>& at)> curve;
   Predict predict;

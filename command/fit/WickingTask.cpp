@@ -35,6 +35,13 @@ Task wickingTask(const command::MeasuredTable& table, const wetcloth::Fabric& fa
   task.unknowns = {
       {"diffusivity_m2_s", highest * highest / task.at.back(), wetcloth::Diffusion::Parameters{}.warpDiffusivity},
       {"seepage_speed_m_s", seepage, seepage}};
+  // 2 gamma / (rho g r) = 2 m for pores of r = 7 um; rho g r^2 / (8 mu) is 1e-6 to 1e-2 m/s for 1 to 90 um.
+  task.ranges = {
+      {"time_s", 0.1, 1e5, "strips are watched for seconds to a day"},
+      {"height_m", 0.001, 2, "a front below 1 mm is not seen, and one above 2 m would need pores finer than 7 um"},
+      {"diffusivity_m2_s", 2e-7, 2e-3,
+       "water that spreads so slowly or so fast has not been seen in cloth (1e-6 to 1.4e-4)"},
+      {"seepage_speed_m_s", 1e-6, 0.01, "water would run so by its weight in pores below 1 um or above 90 um"}};
   task.roughness = stripRoughness;
   task.curve = [highest](const std::vector<double>& unknowns, const std::vector<double>& times) {
     return stripHeights({unknowns[0], unknowns[1], highest}, times);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "command/measured/MeasuredTable.h"
 
+#include "command/measured/CsvCells.h"
+
 #include "command/cli/Errors.h"
 #include "command/cli/NearestWord.h"
 #include "command/cli/ProgramFolder.h"
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <stdexcept>
 #include <string_view>
 
@@ -17,59 +20,36 @@ namespace command {
 namespace {
 
 constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
+constexpr const char* const howCellsGo = "; cells go with commas between, numbers have a point";
+
+// Squares of these, and of quotients of them, are finite and not 0.
+constexpr double leastMeasured = 1e-20, mostMeasured = 1e20;
 
 std::string placeOf(const std::string& file, std::size_t line) { return file + ": line " + std::to_string(line); }
 
-std::string trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(" \t") + 1 - first));
-}
-
-/// Takes the cell in quotes that the rest of a line begins with.
-std::string takeQuoted(std::string_view& rest, const std::string& place) {
-  std::string cell;
-  for (std::size_t i = 1; i < rest.size(); ++i) {
-    if (rest[i] != '"') {
-      cell += rest[i];
-    } else if (i + 1 < rest.size() && rest[i + 1] == '"') {
-      cell += rest[i++];
-    } else {
-      rest.remove_prefix(i + 1);
-      const std::size_t next = rest.find_first_not_of(" \t");
-      if (next != std::string_view::npos && rest[next] != ',') {
-        throw InputError(place + ": after a quote that closes " + shownField(cell) + " there must be a comma");
-      }
-      rest.remove_prefix(next == std::string_view::npos ? rest.size() : next);
-      return cell;
-    }
-  }
-  throw InputError(place + ": a quote is not closed on its line");
-}
-
-std::vector<std::string> cellsOf(std::string_view rest, const std::string& place) {
-  std::vector<std::string> cells;
-  while (true) {
-    rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
-    if (!rest.empty() && rest.front() == '"') {
-      cells.push_back(takeQuoted(rest, place));
-    } else {
-      const std::size_t end = std::min(rest.find(','), rest.size());
-      cells.push_back(trimmed(rest.substr(0, end)));
-      rest.remove_prefix(end);
-    }
-    if (rest.empty()) return cells;
-    rest.remove_prefix(1);
-  }
+bool hasControls(const std::string& text) {
+  return std::any_of(text.begin(), text.end(), [](unsigned char byte) { return byte < 0x20 || byte == 0x7f; });
 }
 
 const char* textOf(MeasuredTable::Allowed allowed) {
   switch (allowed) {
-    case MeasuredTable::Allowed::notNegative: return "must be finite and >= 0";
-    case MeasuredTable::Allowed::positive: return "must be finite and > 0";
+    case MeasuredTable::Allowed::notNegative: return "must be a finite number >= 0, with a point";
+    case MeasuredTable::Allowed::positive: return "must be a finite number > 0, with a point";
     case MeasuredTable::Allowed::any: break;
   }
-  return "must be a finite number";
+  return "must be a finite number, with a point";
+}
+
+/// Of digits, as people write it: no "inf", no hexadecimal one. NaN when it is none.
+double numberIn(const std::string& cell) {
+  const bool isDecimal = !cell.empty() && cell.find_first_not_of("+-.0123456789eE") == std::string::npos;
+  char* end = nullptr;
+  const double number = isDecimal ? std::strtod(cell.c_str(), &end) : 0;
+  return isDecimal && *end == '\0' ? number : std::nan("");
+}
+
+bool isMeasurable(double number) {
+  return number == 0 || (std::fabs(number) >= leastMeasured && std::fabs(number) <= mostMeasured);
 }
 
 bool isAllowedNumber(double number, MeasuredTable::Allowed allowed) {
@@ -111,9 +91,14 @@ void MeasuredTable::read(const std::string& text) {
 }
 
 void MeasuredTable::addHeader(const Row& row) {
+  m_headerLine = row.line;
   for (std::size_t i = 0; i < row.cells.size(); ++i) {
     const std::string place = placeOf(m_file, row.line) + ", column " + std::to_string(i + 1);
     if (row.cells[i].empty()) throw InputError(place + ": must have a name");
+    if (hasControls(row.cells[i])) {
+      throw InputError(place + " = " + shownField(row.cells[i]) +
+                       ": has control characters; a table is text in UTF-8, its lines end in LF or CR LF" + howCellsGo);
+    }
     if (has(row.cells[i])) throw InputError(place + " = " + shownField(row.cells[i]) + ": is the name of two columns");
     m_columns.push_back(row.cells[i]);
   }
@@ -128,8 +113,7 @@ void MeasuredTable::requireLength(const Row& row) const {
   if (row.cells.size() > m_columns.size()) {
     const std::size_t column = m_columns.size();
     throw InputError(placeOf(m_file, row.line) + ", column " + std::to_string(column + 1) + " = " +
-                     shownField(row.cells[column]) +
-                     ": is one too many; cells go with commas between, numbers have a point");
+                     shownField(row.cells[column]) + ": is one too many" + howCellsGo);
   }
 }
 
@@ -140,7 +124,10 @@ bool MeasuredTable::has(const std::string& column) const {
 std::size_t MeasuredTable::indexOf(const std::string& column) const {
   const auto found = std::find(m_columns.begin(), m_columns.end(), column);
   if (found != m_columns.end()) return static_cast<std::size_t>(found - m_columns.begin());
-  throw InputError(m_file + ": must have a column " + shownField(column) + "; its columns are " + joined(m_columns));
+  std::vector<std::string> shown;
+  for (const std::string& name : m_columns) shown.push_back(shownField(name));
+  throw InputError(placeOf(m_file, m_headerLine) + ": must have a column " + shownField(column) + "; its columns are " +
+                   joined(shown) + (shown.size() == 1 ? howCellsGo : ""));
 }
 
 void MeasuredTable::reject(std::size_t row, const std::string& column, const std::string& complaint) const {
@@ -161,10 +148,9 @@ std::vector<double> MeasuredTable::numbers(const std::string& column, Allowed al
   const std::vector<std::string> cells = words(column);
   std::vector<double> numbers;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    char* end = nullptr;
-    const double number = std::strtod(cells[i].c_str(), &end);
-    const bool isNumber = !cells[i].empty() && end == cells[i].c_str() + cells[i].size();
-    if (!isNumber || !isAllowedNumber(number, allowed)) reject(i, column, textOf(allowed));
+    const double number = numberIn(cells[i]);
+    if (!isAllowedNumber(number, allowed)) reject(i, column, textOf(allowed));
+    if (!isMeasurable(number)) reject(i, column, "nobody measures that; must be 0 or from 1e-20 to 1e20 in size");
     numbers.push_back(number);
   }
   return numbers;
@@ -173,9 +159,20 @@ std::vector<double> MeasuredTable::numbers(const std::string& column, Allowed al
 std::vector<double> MeasuredTable::increasing(const std::string& column, Allowed allowed) const {
   std::vector<double> values = numbers(column, allowed);
   for (std::size_t i = 1; i < values.size(); ++i) {
-    if (!(values[i] > values[i - 1])) reject(i, column, "must be greater than in the row before");
+    if (values[i] > values[i - 1]) continue;
+    const Row& before = m_rows[i - 1];
+    reject(i, column,
+           "must be greater than the " + before.cells[indexOf(column)] + " of line " + std::to_string(before.line));
   }
   return values;
+}
+
+std::vector<std::string> MeasuredTable::distinct(const std::string& column) const {
+  std::vector<std::string> seen;
+  for (const std::string& word : words(column)) {
+    if (std::find(seen.begin(), seen.end(), word) == seen.end()) seen.push_back(word);
+  }
+  return seen;
 }
 
 MeasuredTable MeasuredTable::where(const std::string& column, const std::string& word) const {
@@ -183,12 +180,24 @@ MeasuredTable MeasuredTable::where(const std::string& column, const std::string&
   MeasuredTable some = *this;
   const auto isOther = [&](const Row& row) { return row.cells[index] != word; };
   some.m_rows.erase(std::remove_if(some.m_rows.begin(), some.m_rows.end(), isOther), some.m_rows.end());
+  some.m_keys += (m_keys.empty() ? " with " : ", ") + column + " = " + shownField(word);
   return some;
+}
+
+MeasuredTable MeasuredTable::sortedBy(const std::string& column) const {
+  const std::vector<double> values = numbers(column);
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  MeasuredTable sorted = *this;
+  for (std::size_t i = 0; i < order.size(); ++i) sorted.m_rows[i] = m_rows[order[i]];
+  return sorted;
 }
 
 void MeasuredTable::requireRows(std::size_t least, const std::string& why) const {
   if (rows() >= least) return;
-  throw InputError(m_file + ": has " + std::to_string(rows()) + " rows of readings, must have at least " +
+  const std::string count = rows() == 0 ? "no rows" : rows() == 1 ? "1 row" : std::to_string(rows()) + " rows";
+  throw InputError(m_file + ": has " + count + " of readings" + m_keys + ", must have at least " +
                    std::to_string(least) + " " + why);
 }
 

@@ -3,6 +3,8 @@
 
 #include "command/accuracy/Specimen.h"
 
+#include <cmath>
+
 namespace reality {
 namespace {
 
@@ -18,14 +20,16 @@ double soak(double timeConstant) {
   settings.fabric.timeConstant = timeConstant;
   accuracy::Specimen sample(settings);
   sample.cloth().add<wetcloth::Absorption>();
-  for (int i = 0; i < static_cast<int>(soakedFor / soakStep + 0.5); ++i) sample.substep(soakStep);
+  for (int i = 0; i < std::lround(soakedFor / soakStep); ++i) sample.substep(soakStep);
   return sample.cloth().saturation(0) * settings.fabric.capacity;
 }
 
 }  // namespace
 
 Plan planAbsorption(const std::string& file) {
-  const command::MeasuredTable table(file);
+  using Allowed = command::MeasuredTable::Allowed;
+  const command::MeasuredTable table = command::MeasuredTable(file).sortedBy("towel");
+  table.requireRows(4, "to fit one half and predict the other");
   Plan plan;
   plan.name = "absorption";
   plan.title = "Water that towels take up in ten seconds";
@@ -36,17 +40,13 @@ Plan planAbsorption(const std::string& file) {
   plan.y = {"uptake_kg_kg", "water over dry mass [kg/kg]"};
   plan.parameter = "time_constant_s";
   plan.start = wetcloth::Fabric::cotton().timeConstant;
-  const std::vector<double> uptake = table.numbers("uptake_kg_kg", command::MeasuredTable::Allowed::positive);
-  table.requireRows(4, "to fit one half and predict the other");
   Sample towels;
   towels.name = "cotton and blends";
-  for (std::size_t i = 0; i < uptake.size(); ++i) {
-    towels.at.push_back(static_cast<double>(i + 1));
-    towels.measured.push_back(uptake[i]);
-    towels.uncertainty.push_back(soakDoubt);
-    towels.isFitted.push_back(i % 2 == 0);
-  }
-  towels.run = [count = uptake.size()](double timeConstant) { return std::vector<double>(count, soak(timeConstant)); };
+  towels.at = table.increasing("towel", Allowed::positive);
+  towels.measured = table.numbers("uptake_kg_kg", Allowed::positive);
+  towels.uncertainty.assign(table.rows(), soakDoubt);
+  for (const double towel : towels.at) towels.isFitted.push_back(std::fmod(towel, 2) == 1);
+  towels.run = [count = table.rows()](double timeConstant) { return std::vector<double>(count, soak(timeConstant)); };
   plan.groups = {{towels}};
   return plan;
 }

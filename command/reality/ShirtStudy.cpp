@@ -46,7 +46,7 @@ Sample sampleOf(const command::MeasuredTable& table, const std::string& name, Sh
 
 /// Merino and cotton, with which of their readings are fitted still to be said.
 std::vector<Sample> shirtsOf(const std::string& file) {
-  const command::MeasuredTable table(file);
+  const command::MeasuredTable table = command::MeasuredTable(file).sortedBy("time_s");
   table.requireRows(4, "to fit one half and predict the other");
   return {sampleOf(table, "merino", {wetcloth::Fabric::coarseWool(), 0.135}),
           sampleOf(table, "cotton", {wetcloth::Fabric::cotton(), 0.162})};

@@ -13,7 +13,7 @@ constexpr double speedDoubt = 0.05;  // of the speed
 
 Plan planSquares(const std::string& file) {
   using Allowed = command::MeasuredTable::Allowed;
-  const command::MeasuredTable table(file);
+  const command::MeasuredTable table = command::MeasuredTable(file).sortedBy("area_m2");
   table.requireRows(4, "to fit one half and predict the other");
   Plan plan;
   plan.name = "squares";
@@ -32,7 +32,7 @@ Plan planSquares(const std::string& file) {
   squares.measured = table.numbers("terminal_speed_m_s", Allowed::positive);
   for (std::size_t i = 0; i < squares.at.size(); ++i) {
     squares.uncertainty.push_back(speedDoubt * squares.measured[i]);
-    squares.isFitted.push_back(i < squares.at.size() / 2);
+    squares.isFitted.push_back(i >= squares.at.size() - squares.at.size() / 2);
   }
   squares.run = [areas = squares.at](double mass) {
     std::vector<double> speeds;

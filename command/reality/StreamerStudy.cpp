@@ -53,6 +53,7 @@ double dragAreaOf(const Streamer& streamer, double skinFriction) {
 Sample streamersOf(const command::MeasuredTable& table, const std::string& series, bool isFitted) {
   using Allowed = command::MeasuredTable::Allowed;
   const command::MeasuredTable rows = table.where("series", series);
+  rows.requireRows(isFitted ? 2 : 1, isFitted ? "to fit 1 number" : "to predict");
   const std::vector<double> widths = rows.numbers("width_m", Allowed::positive);
   const std::vector<double> lengths = rows.numbers("length_m", Allowed::positive);
   const std::vector<double> densities = rows.numbers("areal_density_kg_m2", Allowed::positive);

@@ -54,7 +54,7 @@ double rangeOfReadings(const Plan& plan) {
   return most - least;
 }
 
-fit::Estimate fitParameter(const Plan& plan, const std::vector<Sample>& samples) {
+fit::Fit fitParameter(const Plan& plan, const std::vector<Sample>& samples) {
   fit::Readings readings;
   forEachReading(samples, true, [&](std::size_t i, std::size_t k) {
     readings.values.push_back(samples[i].measured[k]);
@@ -71,8 +71,7 @@ fit::Estimate fitParameter(const Plan& plan, const std::vector<Sample>& samples)
     }
     return model;
   };
-  return fit::fitLeastSquares({{plan.parameter, plan.start, plan.start}}, predict, readings, plan.roughness)
-      .estimates.front();
+  return fit::fitLeastSquares({{plan.parameter, plan.start, plan.start}}, predict, readings, plan.roughness);
 }
 
 ErrorSum errorsOf(const std::vector<Sample>& samples, const Group& group, bool isFitted, ErrorSum sum = {}) {
@@ -91,7 +90,9 @@ Study carryOut(const Plan& plan, const TellProgress& tell) {
   ErrorSum fitted, predicted;
   for (const std::vector<Sample>& samples : plan.groups) {
     Group group;
-    group.parameter = fitParameter(plan, samples);
+    const fit::Fit fit = fitParameter(plan, samples);
+    group.parameter = fit.estimates.front();
+    group.hasConverged = fit.hasConverged;
     for (const Sample& sample : samples) group.model.push_back(sample.run(group.parameter.value));
     group.fitted = errorsOf(samples, group, true).over(range);
     group.predicted = errorsOf(samples, group, false).over(range);

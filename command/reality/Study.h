@@ -50,6 +50,7 @@ struct Errors {
 
 struct Group {
   fit::Estimate parameter;
+  bool hasConverged = true;                ///< the search for it
   std::vector<std::vector<double>> model;  ///< of each sample, at each reading
   Errors fitted;
   Errors predicted;

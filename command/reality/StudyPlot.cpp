@@ -15,15 +15,16 @@ PlotSeries emptySeries(const std::string& name, Mark mark, const char* colour, c
   return {name, legend, mark, colour, {}, {}};
 }
 
-/// A line where it was fitted, which goes on dashed where it predicts.
+/// A line where it was fitted, which goes on dashed where it predicts, before it or after.
 void addCurve(command::Plot& plot, const Sample& sample, const std::vector<double>& model, const char* colour) {
   PlotSeries readings = emptySeries(sample.name, Mark::points, colour, sample.name);
   PlotSeries fitted = emptySeries(sample.name + ", fitted", Mark::line, colour);
   PlotSeries predicted = emptySeries(sample.name + ", predicted", Mark::reference, colour);
   for (std::size_t i = 0; i < model.size(); ++i) {
     readings.add(sample.at[i], sample.measured[i]);
-    const bool isNext = i > 0 && sample.isFitted[i - 1];
-    if (!sample.isFitted[i] && isNext) predicted.add(sample.at[i - 1], model[i - 1]);
+    const bool isEnd = i > 0 && sample.isFitted[i - 1] != sample.isFitted[i];
+    if (isEnd && !sample.isFitted[i]) predicted.add(sample.at[i - 1], model[i - 1]);
+    if (isEnd && sample.isFitted[i]) predicted.add(sample.at[i], model[i]);
     (sample.isFitted[i] ? fitted : predicted).add(sample.at[i], model[i]);
   }
   for (const PlotSeries& series : {fitted, predicted, readings}) {

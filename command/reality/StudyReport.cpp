@@ -39,6 +39,7 @@ Json jsonOf(const Sample& sample, const std::vector<double>& model) {
 Json jsonOf(const Plan& plan, const std::vector<Sample>& samples, const Group& group) {
   Json json{{plan.parameter, group.parameter.value}, {"is_told", group.parameter.isTold()}};
   if (group.parameter.isTold()) json["standard_error"] = group.parameter.standardError;
+  json["converged"] = group.hasConverged;
   json["fitted"] = jsonOf(group.fitted);
   json["predicted"] = jsonOf(group.predicted);
   json["samples"] = Json::array();
@@ -120,7 +121,8 @@ std::string textOf(const Study& study) {
   text += "  model: " + plan.model + "\n  halves: " + plan.halves + "\n  uncertainty: " + plan.doubt + "\n";
   text += format("    %-24s %10s %12s    %-9s %12s\n", "", plan.x.column.c_str(), "measured", "", "model");
   for (std::size_t i = 0; i < study.groups.size(); ++i) {
-    text += "  " + parameterText(plan, study.groups[i].parameter) + "\n";
+    text += "  " + parameterText(plan, study.groups[i].parameter);
+    text += study.groups[i].hasConverged ? "\n" : "; the search did not converge, other values may fit better\n";
     text += readingsText(plan.groups[i], study.groups[i]);
   }
   text += lineOf("fitted half", study.fitted) + lineOf("predicted half", study.predicted);

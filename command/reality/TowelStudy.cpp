@@ -2,6 +2,8 @@
 #include "command/reality/DryingCloth.h"
 #include "command/reality/Studies.h"
 
+#include "command/cli/NearestWord.h"
+
 #include <algorithm>
 
 namespace reality {
@@ -36,38 +38,58 @@ double timeToDry(double water, double area, double rate) {
 /// The mark of 2 K against 1 K moves the time of cotton by several minutes, of the others by one or two [s].
 double doubtOf(const std::string& towel) { return towel == "cotton" ? 240 : 90; }
 
-/// Those that the rate is fitted to; the others are predicted.
-bool isOfFirstThree(const std::string& towel) {
-  return towel == "decathlon" || towel == "hema" || towel == "care_plus";
+/// The rate is fitted to the first three; the others are predicted.
+const std::vector<std::string>& towelNames() {
+  static const std::vector<std::string> names{"decathlon", "hema", "care_plus", "anwb", "xenos", "cotton"};
+  return names;
+}
+constexpr std::size_t fittedTowels = 3;
+
+void requireKnownTowels(const command::MeasuredTable& table) {
+  const std::vector<std::string> words = table.words("towel");
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto& known = towelNames();
+    if (std::find(known.begin(), known.end(), words[i]) != known.end()) continue;
+    table.reject(i, "towel", "must be one of " + command::joined(known));
+  }
+}
+
+/// The one row of a towel in a run.
+command::MeasuredTable rowOf(const command::MeasuredTable& run, const std::string& towel) {
+  command::MeasuredTable row = run.where("towel", towel);
+  row.requireRows(1, "of each towel in each run");
+  if (row.rows() > 1) row.reject(1, "towel", "is there twice in this run");
+  return row;
+}
+
+Sample towelOf(const command::MeasuredTable& row, std::size_t place) {
+  using Allowed = command::MeasuredTable::Allowed;
+  const auto only = [&](const char* column) { return row.numbers(column, Allowed::positive).front(); };
+  const std::string& name = towelNames()[place];
+  Sample towel;
+  towel.name = "run " + row.words("run").front() + " " + name;
+  towel.at = {only("run") + sideBySide * static_cast<double>(place)};
+  towel.measured = {only("dry_s")};
+  towel.uncertainty = {doubtOf(name)};
+  towel.isFitted = {place < fittedTowels};
+  towel.run = [water = only("water_kg"), area = only("area_m2")](double rate) {
+    return std::vector<double>{timeToDry(water, area, rate)};
+  };
+  return towel;
 }
 
 std::vector<Sample> towelsOf(const command::MeasuredTable& run) {
-  using Allowed = command::MeasuredTable::Allowed;
-  const std::vector<std::string> names = run.words("towel");
-  const std::vector<double> number = run.numbers("run", Allowed::positive);
-  const std::vector<double> water = run.numbers("water_kg", Allowed::positive);
-  const std::vector<double> area = run.numbers("area_m2", Allowed::positive);
-  const std::vector<double> measured = run.numbers("dry_s", Allowed::positive);
   std::vector<Sample> towels;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    Sample towel;
-    towel.name = "run " + run.words("run")[i] + " " + names[i];
-    towel.at = {number[i] + sideBySide * static_cast<double>(i)};
-    towel.measured = {measured[i]};
-    towel.uncertainty = {doubtOf(names[i])};
-    towel.isFitted = {isOfFirstThree(names[i])};
-    towel.run = [water = water[i], area = area[i]](double rate) {
-      return std::vector<double>{timeToDry(water, area, rate)};
-    };
-    towels.push_back(towel);
-  }
+  for (std::size_t i = 0; i < towelNames().size(); ++i) towels.push_back(towelOf(rowOf(run, towelNames()[i]), i));
   return towels;
 }
 
 }  // namespace
 
 Plan planTowels(const std::string& file) {
-  const command::MeasuredTable table(file);
+  const command::MeasuredTable table = command::MeasuredTable(file).sortedBy("run");
+  table.requireRows(1, "to fit and predict");
+  requireKnownTowels(table);
   Plan plan;
   plan.name = "towels";
   plan.title = "Time until wetted pieces of six towels are dry";
@@ -80,9 +102,7 @@ Plan planTowels(const std::string& file) {
   plan.y = {"dry_s", "time until dry [s]"};
   plan.parameter = "rate_kg_m2_s";
   plan.start = 2e-4;
-  std::vector<std::string> runs = table.words("run");
-  runs.erase(std::unique(runs.begin(), runs.end()), runs.end());
-  for (const std::string& run : runs) plan.groups.push_back(towelsOf(table.where("run", run)));
+  for (const std::string& run : table.distinct("run")) plan.groups.push_back(towelsOf(table.where("run", run)));
   return plan;
 }
 

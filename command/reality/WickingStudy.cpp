@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/reality/Studies.h"
 
+#include "command/cli/Errors.h"
 #include "command/fit/StripHeights.h"
 
 #include <bullet_wetcloth/bullet_wetcloth.h>
@@ -22,18 +23,13 @@ constexpr double seepageOfThatCloth = 8.0e-4;
 /// Seepage's speed [m/s] that goes with a diffusivity [m^2/s].
 using SeepageOf = std::function<double(double diffusivity)>;
 
-/// The rows of each group of strips that are alike, one after the other.
+/// The rows of each group of strips that are alike.
 std::vector<command::MeasuredTable> groupsOf(const command::MeasuredTable& table) {
   std::vector<command::MeasuredTable> groups{table};
   for (const char* const column : {"needles", "fibre", "knit", "series"}) {
     std::vector<command::MeasuredTable> finer;
     for (const command::MeasuredTable& group : groups) {
-      std::vector<std::string> seen;
-      for (const std::string& word : group.words(column)) {
-        if (std::find(seen.begin(), seen.end(), word) != seen.end()) continue;
-        seen.push_back(word);
-        finer.push_back(group.where(column, word));
-      }
+      for (const std::string& word : group.distinct(column)) finer.push_back(group.where(column, word));
     }
     groups = finer;
   }
@@ -53,8 +49,9 @@ bool isShown(const std::string& name) {
   return name == clothOfSeepage || name == "108 polyester terry OD" || name == "200 polyester flat ID";
 }
 
-Sample stripsOf(const command::MeasuredTable& table, const SeepageOf& seepageOf) {
+Sample stripsOf(const command::MeasuredTable& group, const SeepageOf& seepageOf) {
   using Allowed = command::MeasuredTable::Allowed;
+  const command::MeasuredTable table = group.sortedBy("time_s");
   Sample strips;
   strips.name = nameOfStrips(table);
   strips.isPlotted = isShown(strips.name);
@@ -82,7 +79,9 @@ Plan planOfStrips(const std::string& file, const SeepageOf& seepageOf) {
   plan.parameter = "diffusivity_m2_s";
   plan.start = 5e-5;
   plan.roughness = fit::stripRoughness;
-  for (const command::MeasuredTable& group : groupsOf(command::MeasuredTable(file))) {
+  const command::MeasuredTable table(file);
+  table.requireRows(4, "to fit one half and predict the other");
+  for (const command::MeasuredTable& group : groupsOf(table)) {
     plan.groups.push_back({stripsOf(group, seepageOf)});
   }
   return plan;
@@ -118,6 +117,9 @@ Plan planWickingOfAKnit(const std::string& file) {
   plan.halves += "; 108 nylon flat ID is left out";
   const auto isThatCloth = [](const std::vector<Sample>& strips) { return strips.front().name == clothOfSeepage; };
   plan.groups.erase(std::remove_if(plan.groups.begin(), plan.groups.end(), isThatCloth), plan.groups.end());
+  if (plan.groups.empty()) {
+    throw command::InputError(file + ": must have strips of another cloth than " + clothOfSeepage);
+  }
   return plan;
 }
 

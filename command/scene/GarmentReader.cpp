@@ -54,8 +54,7 @@ std::vector<std::array<float, 2>> sheetOf(const std::vector<btVector3>& vertices
   return sheet;
 }
 
-GarmentPanel readPanel(JsonCursor cursor) {
-  cursor.expectObject(keys::panel);
+GarmentPanel readPanel(const JsonCursor& cursor) {
   GarmentPanel panel;
   panel.name = cursor.at("name").text();
   if (cursor.exactlyOneOf({"patch", "obj"}) == "patch") {
@@ -70,7 +69,8 @@ GarmentPanel readPanel(JsonCursor cursor) {
 std::vector<GarmentPanel> readPanels(const JsonCursor& list) {
   std::vector<GarmentPanel> panels;
   std::set<std::string> names;
-  for (const JsonCursor& element : list.elements()) {
+  for (JsonCursor element : list.elements()) {
+    element.expectObject(keys::panel);
     panels.push_back(readPanel(element));
     if (!names.insert(panels.back().name).second) element.at("name").complain("is the name of another panel, too");
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/scene/SkeletonMotion.h"
 
-#include <assimp/postprocess.h>
+#include <assimp/config.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
@@ -181,6 +181,7 @@ class SkeletonReader {
 
 SkeletonMotion readSkeletonMotion(const std::string& file, const Placement& placement) {
   Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);  // no skin of its own making
   const aiScene* const scene = importer.ReadFile(file, 0);
   if (scene == nullptr || scene->mRootNode == nullptr) throw std::invalid_argument(importer.GetErrorString());
   return SkeletonReader(*scene, placement).read();

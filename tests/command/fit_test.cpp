@@ -52,11 +52,52 @@ TEST(Fit, TellsParametersResidualsAndPlots) {
 // Cloth that only gets drier does not soak; and times since 1970 are no time of a soaking.
 TEST(Fit, WarnsWhereTheLawDoesNotDescribeTheReadings) {
   const std::string drier = "time_s,water_kg_kg\n1,1.2\n2,0.9\n3,0.5\n4,0.3\n5,0.1\n";
-  EXPECT_NE(fitOf(drier, "absorption").at("warning").get<std::string>().find("time_s, water_kg_kg"), std::string::npos);
+  EXPECT_NE(fitOf(drier, "absorption").at("warnings").at(0).get<std::string>().find("time_s, water_kg_kg"),
+            std::string::npos);
   std::ostringstream since1970;
   since1970 << "time_s,water_kg_kg\n";
   for (int t = 0; t <= 30; t += 3) since1970 << 1700000000 + t << "," << 1.2 * -std::expm1(-t / 6.) << "\n";
-  EXPECT_TRUE(fitOf(since1970.str(), "absorption").at("warning").is_string());
+  EXPECT_FALSE(fitOf(since1970.str(), "absorption").at("warnings").empty());
+}
+
+TEST(Fit, WarnsOfUnitsInTextAndJson) {
+  const std::string millimetres = "time_s,height_m\n10,23.6\n60,42.7\n180,59.7\n600,84.9\n";
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("data.csv", millimetres);
+  const Outcome outcome = runWetcloth({"fit", file, "--of", "wicking", "--json", directory.path("fit.json")});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("\n  warning: height_m reaches 84.9"), std::string::npos) << outcome.out;
+  const Json warnings = readJson(directory.path("fit.json")).at("warnings");
+  EXPECT_NE(warnings.at(0).get<std::string>().find("height_m reaches 84.9"), std::string::npos) << warnings;
+}
+
+// An hour passes between the second reading and the third: whatever happens in it fits.
+TEST(Fit, ThatDoesNotConvergeEndsWithWhatToDo) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("data.csv", "time_s,water_kg_kg\n1,0\n2,0\n3600,1\n3601,1\n");
+  const Outcome outcome = runWetcloth({"fit", file, "--of", "absorption", "--json", directory.path("fit.json")});
+  EXPECT_EQ(outcome.status, 1);
+  for (const char* word : {"data.csv: ", "did not converge", "readings", "--out"}) {
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " in " << outcome.err;
+  }
+  EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1);
+  EXPECT_NE(outcome.out.find("warning: the search did not converge"), std::string::npos) << outcome.out;
+  EXPECT_EQ(readJson(directory.path("fit.json")).at("converged"), false);
+}
+
+// Not on its way to numbers that a computer cannot have.
+TEST(Fit, RefusesAReadingThatNobodyMeasures) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("data.csv", "time_s,water_kg_kg\n0,0\n3,1e308\n6,0.7\n9,1e308\n");
+  expectRefusal(runWetcloth({"fit", file, "--of", "absorption"}), {"line 3, column 2 (water_kg_kg)", "1e308"});
+}
+
+TEST(Fit, WhereTheModelFailsTellsWhichUnitsMayBeWrong) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("data.csv", "time_s,height_m\n1,1e19\n2,2e19\n3,1e20\n");
+  const Outcome outcome = runWetcloth({"fit", file, "--of", "wicking"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("height_m reaches 1e+20"), std::string::npos) << outcome.err;
 }
 
 TEST(Fit, OfAbsorptionSoaksAsMeasuredInAScene) {
@@ -64,7 +105,8 @@ TEST(Fit, OfAbsorptionSoaksAsMeasuredInAScene) {
   // Three digits of the readings.
   EXPECT_NEAR(fit.at("cloth").at("fabric").at("capacity_kg_per_kg").get<double>(), 1.2, 0.01);
   EXPECT_NEAR(fit.at("cloth").at("fabric").at("time_constant_s").get<double>(), 6, 0.1);
-  EXPECT_TRUE(fit.at("warning").is_null());
+  EXPECT_TRUE(fit.at("warnings").empty());
+  EXPECT_EQ(fit.at("converged"), true);
   Json scene = sceneWith(fit.at("cloth"));
   scene["cloths"][0]["effects"] = {{"absorption", Json::object()}};
   scene["duration_s"] = 6;

@@ -6,11 +6,13 @@
 
 #include "command/ccd/QueryFile.h"
 #include "command/cli/Errors.h"
+#include "command/measured/MeasuredTable.h"
 #include "command/scene/ObjReader.h"
 #include "command/scene/SceneReader.h"
 #include "tests/fuzz/Input.h"
 #include "tests/fuzz/SmallWorld.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -29,6 +31,27 @@ inline void obj(const std::string& bytes) {
 inline void ccd(const std::string& bytes) {
   const Input input(bytes);
   takesOrRefuses<command::InputError>([&] { command::readQueries(input.path()); });
+}
+
+/// All that is asked of a table of measurements, of each of its columns; a number that is taken is one.
+inline void measured(const std::string& bytes) {
+  const Input input(bytes);
+  takesOrRefuses<command::InputError>([&] {
+    const command::MeasuredTable table(input.path());
+    table.requireRows(1, "to have a cell");
+    for (const std::string& column : table.columns()) {
+      table.where(column, table.distinct(column).front()).requireRows(1, "of its word");
+    }
+    for (const std::string& column : table.columns()) {
+      takesOrRefuses<command::InputError>([&] {
+        for (const double number : table.numbers(column)) {
+          if (!std::isfinite(number * number)) throw std::logic_error("taken for a number");
+        }
+      });
+      takesOrRefuses<command::InputError>([&] { table.sortedBy(column).increasing(column); });
+    }
+    table.words("");
+  });
 }
 
 /// The first byte chooses: an odd one, and the rest is a whole stream; an even one, and it is the state within a

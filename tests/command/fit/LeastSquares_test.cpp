@@ -108,9 +108,25 @@ TEST(LeastSquares, UsualValuesTogetherFitNoWorseThanOneMay) {
   EXPECT_NE(fit.estimates[0].isUsual, fit.estimates[1].isUsual);
 }
 
+// Towards a root of high order each step covers a share of what is left: Newton's method is linear there.
+TEST(LeastSquares, SaysWhetherItConverged) {
+  EXPECT_TRUE(fit::fitLeastSquares(unknowns(), powerLaw, {powerLaw({3.5, 0.4}), {}}).hasConverged);
+  const auto flat = [](const std::vector<double>& values) {
+    return std::vector<double>(2, std::pow(std::log(values[0]), 40));
+  };
+  EXPECT_FALSE(fit::fitLeastSquares({{"a", 20, 20}}, flat, {{0, 0}, {}}).hasConverged);
+}
+
 TEST(LeastSquares, AsksForMoreReadingsThanUnknowns) {
   const auto two = [](const std::vector<double>& values) { return values; };
   EXPECT_THROW(fit::fitLeastSquares(unknowns(), two, {{1, 2}, {}}), command::InputError);
+  try {
+    fit::fitLeastSquares({{"a", 1, 1}}, two, {{1}, {}});
+    FAIL() << "was taken";
+  } catch (const command::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("1 number cannot be fitted to 1 reading,"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(LeastSquares, SaysWhenTheModelIsNotFinite) {

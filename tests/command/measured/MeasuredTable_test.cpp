@@ -27,7 +27,7 @@ std::string complaintOf(const std::function<void()>& action) {
   try {
     action();
   } catch (const command::InputError& error) {
-    const std::string text = error.what();
+    std::string text = error.what();
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
     EXPECT_NE(text.find(".csv"), std::string::npos) << text;
     return text;
@@ -70,7 +70,16 @@ TEST(MeasuredTable, SaysWhatFileCannotBeHad) {
 
 TEST(MeasuredTable, SaysWhichColumnIsMissingAndWhichThereAre) {
   const MeasuredTable table = tableOf("time_s,height_mm\n1,2\n");
-  expectWords(complaintOf([&] { table.numbers("height_m"); }), {"\"height_m\"", "time_s", "height_mm"});
+  expectWords(complaintOf([&] { table.numbers("height_m"); }),
+              {"line 1: ", "\"height_m\"", "\"time_s\"", "\"height_mm\""});
+  // Of semicolons, tabs, lines that end in CR alone, and UTF-16.
+  expectWords(complaintOf([] { tableOf("# x\na;b\n1;2\n").numbers("a"); }), {"line 2: ", "\"a;b\"", "commas between"});
+  for (const std::string& text : {std::string("a\tb\n1\t2\n"), std::string("a,b\r1,2\r"),
+                                  std::string("\xff\xfe"
+                                              "a\0\n\0",
+                                              6)}) {
+    expectWords(complaintOf([&] { tableOf(text); }), {"line 1, column ", "UTF-8", "commas between"});
+  }
 }
 
 TEST(MeasuredTable, NamesLineAndColumnOfABadCell) {
@@ -78,12 +87,21 @@ TEST(MeasuredTable, NamesLineAndColumnOfABadCell) {
     return complaintOf(
         [&] { tableOf("# comment\ntime_s,height_m\n1,2\n3," + cell + "\n").numbers("height_m", allowed); });
   };
-  for (const char* const cell : {"wet", "nan", "inf", "-inf", "", "1.5x", "1 2", "1e999"}) {
+  for (const char* const cell : {"wet", "nan", "inf", "-inf", "", "1.5x", "1 2", "1e999", "0x1p3", "1d5"}) {
     expectWords(at(cell), {"line 4, column 2 (height_m) = \"" + std::string(cell) + "\"", "must be a finite number"});
   }
-  expectWords(at("-1", Allowed::notNegative), {"line 4, column 2", "must be finite and >= 0"});
-  expectWords(at("0", Allowed::positive), {"line 4, column 2", "must be finite and > 0"});
+  expectWords(at("-1", Allowed::notNegative), {"line 4, column 2", "must be a finite number >= 0, with a point"});
+  expectWords(at("0", Allowed::positive), {"line 4, column 2", "must be a finite number > 0, with a point"});
   expectWords(at("\x01\xff"), {"\\x01\\xff"});
+}
+
+// Squares of what is fitted, and of quotients of it, must be finite.
+TEST(MeasuredTable, RefusesNumbersThatNobodyMeasures) {
+  for (const char* const cell : {"1e308", "-1e21", "1e-21", "-5e-324"}) {
+    expectWords(complaintOf([&] { tableOf("x\n" + std::string(cell) + "\n").numbers("x"); }),
+                {"line 2, column 1 (x) = \"" + std::string(cell) + "\"", "1e-20", "1e20"});
+  }
+  EXPECT_EQ(tableOf("x\n1e20\n-1e-20\n0\n1e-400\n").numbers("x"), (std::vector<double>{1e20, -1e-20, 0, 0}));
 }
 
 TEST(MeasuredTable, NamesLineAndColumnOfARowOfAnotherLength) {
@@ -104,8 +122,20 @@ TEST(MeasuredTable, RefusesQuotesThatDoNotEnd) {
 TEST(MeasuredTable, RefusesTimesThatDoNotGrow) {
   for (const char* const time : {"1", "0.5"}) {
     const MeasuredTable table = tableOf("time_s\n0\n1\n" + std::string(time) + "\n2\n");
-    expectWords(complaintOf([&] { table.increasing("time_s"); }), {"line 4, column 1 (time_s)", "must be greater"});
+    expectWords(complaintOf([&] { table.increasing("time_s"); }),
+                {"line 4, column 1 (time_s)", "must be greater than the 1 of line 3"});
   }
+}
+
+TEST(MeasuredTable, FindsRowsByTheirKeys) {
+  const MeasuredTable table = tableOf("cloth,x\nwool,10\ncotton,9\nwool,-1\nsilk,9\n");
+  EXPECT_EQ(table.distinct("cloth"), (std::vector<std::string>{"wool", "cotton", "silk"}));
+  const MeasuredTable sorted = table.sortedBy("x");
+  EXPECT_EQ(sorted.numbers("x"), (std::vector<double>{-1, 9, 9, 10}));
+  EXPECT_EQ(sorted.words("cloth"), (std::vector<std::string>{"wool", "cotton", "silk", "wool"}))
+      << "equal ones keep their order";
+  expectWords(complaintOf([&] { sorted.increasing("x", Allowed::any); }), {"line 5, column 2 (x)", "the 9 of line 3"});
+  expectWords(complaintOf([] { tableOf("x\n1\ntwo\n").sortedBy("x"); }), {"line 3, column 1 (x)"});
 }
 
 TEST(MeasuredTable, RefusesTooFewRows) {
@@ -113,6 +143,14 @@ TEST(MeasuredTable, RefusesTooFewRows) {
   table.requireRows(2, "for nothing");
   expectWords(complaintOf([&] { table.requireRows(3, "to fit 2 numbers"); }),
               {"2 rows", "at least 3", "to fit 2 numbers"});
+  expectWords(complaintOf([] { tableOf("a\n1\n").requireRows(2, "to fit 1 number"); }), {"has 1 row of readings,"});
+  expectWords(complaintOf([] { tableOf("a\n").requireRows(2, "to fit 1 number"); }), {"has no rows of readings,"});
+}
+
+TEST(MeasuredTable, NamesTheKeysOfRowsThatAreTooFew) {
+  const MeasuredTable table = tableOf("fibre,knit,x\nwool,flat,1\nwool,terry,2\n");
+  expectWords(complaintOf([&] { table.where("fibre", "wool").where("knit", "flat").requireRows(2, "for nothing"); }),
+              {"has 1 row of readings with fibre = \"wool\", knit = \"flat\", must have at least 2"});
 }
 
 TEST(MeasuredTable, EveryFileOfMeasurementsIsThereAndReads) {
