@@ -50,7 +50,7 @@ struct Drop {
 
 /// Where a solid is: turned about the origin, then moved.
 struct Pose {
-  Vector3 place{};                         ///< [m]
+  Vector3 place{};                        ///< [m]
   std::array<float, 4> turn{0, 0, 0, 1};  ///< quaternion x, y, z, w of length 1
 };
 

@@ -20,7 +20,8 @@ struct StandingMesh {
   std::optional<std::size_t> solid = std::nullopt;  ///< number in Scenery::solids; none: it never moves
 };
 
-/// The solids, as they are in the first frame, and of each ground and of the water a square that reaches well beyond the cloths of all frames.
+/// The solids, as they are in the first frame, and of each ground and of the water a square that reaches well beyond
+/// the cloths of all frames.
 std::vector<StandingMesh> standingMeshes(const FrameSequence& sequence);
 
 }  // namespace pictures

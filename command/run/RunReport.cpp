@@ -117,6 +117,7 @@ nlohmann::ordered_json RunReport::json() const {
   json["links"] = m_links;
   json["effects"] = m_effects;
   json["wall_ms_per_step"] = m_times.wetMilliseconds;
+  json["of_real_time"] = ofRealTime();
   if (m_times.plainMilliseconds) json["bullet_ms_per_step"] = *m_times.plainMilliseconds;
   json["ledger"] = {{"initial", m_ledger.initial}, {"absorbed", m_ledger.absorbed}, {"evaporated", m_ledger.evaporated},
                     {"dripped", m_ledger.dripped}, {"held", m_ledger.held},         {"run_off", m_ledger.runOff}};
@@ -150,9 +151,13 @@ nlohmann::ordered_json RunReport::json() const {
   return json;
 }
 
+/// The time that a step takes over the time that it simulates: at most 1 keeps up.
+double RunReport::ofRealTime() const { return m_times.wetMilliseconds / (1e3 * m_scene.step); }
+
 std::string RunReport::timeLine() const {
   char text[120];
-  std::snprintf(text, sizeof text, "%-15s%.3f ms per step", "time", m_times.wetMilliseconds);
+  std::snprintf(text, sizeof text, "%-15s%.3f ms per step, %.2f of real time", "time", m_times.wetMilliseconds,
+                ofRealTime());
   std::string line = text;
   if (m_times.plainMilliseconds) {
     const double plain = *m_times.plainMilliseconds;

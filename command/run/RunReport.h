@@ -38,6 +38,7 @@ class RunReport {
   void measureCloth(const wetcloth::WetCloth& cloth);
   void askSolver(const SceneWorld& world);
   bool hasGuard() const { return m_scene.clothSolver && m_scene.clothSolver->guard; }
+  double ofRealTime() const;
   std::string timeLine() const;
   std::string waterLines() const;
   std::string auditLine() const;

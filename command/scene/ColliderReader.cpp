@@ -26,8 +26,8 @@ Kind readLong(JsonCursor cursor, const KeyTable& keys) {
   cursor.expectObject(keys);
   const Kind kind{readVector(cursor.at("from_m")), readVector(cursor.at("to_m")),
                   cursor.at("radius_m").number(Range::positive())};
-  const btScalar longest = kind.from.absolute()[kind.from.absolute().maxAxis()] +
-                           kind.to.absolute()[kind.to.absolute().maxAxis()];
+  const btScalar longest =
+      kind.from.absolute()[kind.from.absolute().maxAxis()] + kind.to.absolute()[kind.to.absolute().maxAxis()];
   if (!((kind.to - kind.from).length() > btScalar(1e-6) * longest)) {
     cursor.at("to_m").complain("must be another point than from_m");
   }

@@ -48,9 +48,9 @@ struct MakeShape {
 
   ColliderShape operator()(const Plane& plane) const {
     const btScalar half = btScalar(planeHalfExtent);
-    return {std::make_unique<btBoxShape>(btVector3(half, half, half)),
-            btTransform(shortestArcQuat(btVector3(0, 1, 0), plane.normal),
-                        plane.normal * (btScalar(plane.offset) - half))};
+    return {
+        std::make_unique<btBoxShape>(btVector3(half, half, half)),
+        btTransform(shortestArcQuat(btVector3(0, 1, 0), plane.normal), plane.normal * (btScalar(plane.offset) - half))};
   }
   ColliderShape operator()(const Box& box) const {
     return {std::make_unique<btBoxShape>(box.halfExtents), at(box.centre)};
@@ -83,8 +83,6 @@ struct MakeShape {
 
 }  // namespace
 
-ColliderShape shapeOf(const Collider& collider) {
-  return std::visit(MakeShape{middleOf(collider)}, collider.shape);
-}
+ColliderShape shapeOf(const Collider& collider) { return std::visit(MakeShape{middleOf(collider)}, collider.shape); }
 
 }  // namespace command

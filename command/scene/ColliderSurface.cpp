@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Zlib
 #include "command/scene/ColliderSurface.h"
 
-#include "bullet_wetcloth/bullet/Index.h"
-
 #include <LinearMath/btConvexHullComputer.h>
 
 #include <algorithm>
@@ -21,6 +19,8 @@ constexpr int sectors = 64;
 constexpr int rings = 32;
 /// Where two faces of a mesh bend by less than this their edge is drawn round.
 constexpr double creaseDegrees = 40;
+
+std::size_t asIndex(int number) { return static_cast<std::size_t>(number); }
 
 btVector3 flatNormal(const std::vector<btVector3>& corners) {
   const btVector3 across = corners.size() == 3 ? (corners[1] - corners[0]).cross(corners[2] - corners[0])
@@ -79,8 +79,8 @@ void addFaces(const std::vector<btVector3>& vertices, const std::vector<std::vec
   for (const std::vector<int>& face : faces) {
     Piece piece;
     for (const int corner : face) {
-      piece.corners.push_back(vertices[wetcloth::toSize(corner)]);
-      facesAt[wetcloth::toSize(corner)].push_back(normals.size());
+      piece.corners.push_back(vertices[asIndex(corner)]);
+      facesAt[asIndex(corner)].push_back(normals.size());
     }
     normals.push_back(flatNormal(piece.corners));
     pieces.push_back(std::move(piece));
@@ -89,7 +89,7 @@ void addFaces(const std::vector<btVector3>& vertices, const std::vector<std::vec
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (const int corner : faces[f]) {
       btVector3 sum(0, 0, 0);
-      for (const std::size_t other : facesAt[wetcloth::toSize(corner)]) {
+      for (const std::size_t other : facesAt[asIndex(corner)]) {
         if (normals[other].dot(normals[f]) > alike) sum += normals[other];
       }
       pieces[before + f].normals.push_back(sum.normalized());
@@ -113,8 +113,9 @@ std::vector<std::vector<int>> facesOfHull(std::vector<btVector3>& points) {
     for (const auto* edge = first->getNextEdgeOfFace(); edge->getTargetVertex() != apex;
          edge = edge->getNextEdgeOfFace()) {
       std::vector<int> face{apex, edge->getSourceVertex(), edge->getTargetVertex()};
-      const btVector3 out = (points[wetcloth::toSize(face[1])] - points[wetcloth::toSize(face[0])]).cross(points[wetcloth::toSize(face[2])] - points[wetcloth::toSize(face[0])]);
-      if (out.dot(points[wetcloth::toSize(face[0])] - inside) < 0) std::swap(face[1], face[2]);
+      const btVector3 out = (points[asIndex(face[1])] - points[asIndex(face[0])])
+                                .cross(points[asIndex(face[2])] - points[asIndex(face[0])]);
+      if (out.dot(points[asIndex(face[0])] - inside) < 0) std::swap(face[1], face[2]);
       faces.push_back(std::move(face));
     }
   }
@@ -138,9 +139,11 @@ struct AddPieces {
       const btVector3 way = corner - cylinder.from;
       return (way - axis * way.dot(axis)).normalized();
     };
-    round.addStrip(cylinder.from, 0, cylinder.from, cylinder.radius, [&](const btVector3&) { return -axis; }, pieces);
+    round.addStrip(
+        cylinder.from, 0, cylinder.from, cylinder.radius, [&](const btVector3&) { return -axis; }, pieces);
     round.addStrip(cylinder.from, cylinder.radius, cylinder.to, cylinder.radius, out, pieces);
-    round.addStrip(cylinder.to, cylinder.radius, cylinder.to, 0, [&](const btVector3&) { return axis; }, pieces);
+    round.addStrip(
+        cylinder.to, cylinder.radius, cylinder.to, 0, [&](const btVector3&) { return axis; }, pieces);
   }
   void operator()(const Box& box) const {
     constexpr int count = 8;  // small ones, so that cloth before and behind an edge sorts rightly

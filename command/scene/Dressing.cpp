@@ -112,7 +112,8 @@ class DressingRoom {
 const std::vector<std::vector<btVector3>>& dressedPlaces(const Scene& scene) {
   std::vector<std::vector<btVector3>>& places = scene.dressed->places;
   if (!places.empty()) return places;
-  places = scene.hasGarments() ? DressingRoom(scene).places() : std::vector<std::vector<btVector3>>(scene.cloths.size());
+  places =
+      scene.hasGarments() ? DressingRoom(scene).places() : std::vector<std::vector<btVector3>>(scene.cloths.size());
   return places;
 }
 

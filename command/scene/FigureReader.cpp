@@ -149,7 +149,8 @@ void readFigure(JsonCursor cursor, Scene& scene) {
   for (const auto& [joint, hull] : readHulls(cursor, motion)) {
     Collider part(hull);
     part.motion = motionOf(*joint, motion.times);
-    if (path) part.motion = chained(*part.motion, readRigidMotion(*path, motion.joints.front().places.front().getOrigin()));
+    if (path)
+      part.motion = chained(*part.motion, readRigidMotion(*path, motion.joints.front().places.front().getOrigin()));
     scene.colliders.push_back(std::move(part));
   }
   figure.count = scene.colliders.size() - figure.first;

@@ -44,7 +44,8 @@ double distance(const TriangleMesh& mesh, int a, int b) {
 
 class Sewing {
  public:
-  Sewing(const std::vector<GarmentPanel>& panels, const std::vector<Stitch>& stitches) : m_panels(panels), m_joined(panels) {
+  Sewing(const std::vector<GarmentPanel>& panels, const std::vector<Stitch>& stitches)
+      : m_panels(panels), m_joined(panels) {
     for (const Stitch& stitch : stitches) m_joined.join(stitch.first, stitch.second);
   }
 

@@ -19,9 +19,8 @@ struct Placement {
 
 /// The faces of a Wavefront OBJ file as a cloth: polygons are cut into triangles (clipEars()), vertices in one place
 /// become one node, a face that is there twice counts once, one without area is left out; remarks tell which. Groups
-/// and lines (`l`) have the names of `g` and `o`, texture coordinates stay per corner; normals, materials and curves are
-/// passed over.
-/// Throws std::invalid_argument naming the line, the value and what is allowed.
+/// and lines (`l`) have the names of `g` and `o`, texture coordinates stay per corner; normals, materials and curves
+/// are passed over. Throws std::invalid_argument naming the line, the value and what is allowed.
 TriangleMesh readObj(const std::string& file, const Placement& placement = {});
 
 }  // namespace command

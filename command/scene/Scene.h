@@ -98,7 +98,7 @@ struct ClothScene {
   /// Among colliders that move, which would go through the cloth with Bullet's hardness of contacts with what is static
   /// or kinematic, btSoftBody::Config::kKHR = 0.1; it is 1 then.
   bool meetsWhatMoves = false;
-  int clusters = 0;               ///< btSoftBody::generateClusters(); 0: none
+  int clusters = 0;  ///< btSoftBody::generateClusters(); 0: none
   std::optional<TwistScene> twist;
   std::optional<MotionScene> motion;
   SpringScene springs;
@@ -145,12 +145,13 @@ struct Scene {
   std::optional<wetcloth::ClothSolver::Parameters> clothSolver;  ///< none: Bullet's own solver
   std::string quality;  ///< a name of qualityNames(); empty: substeps and iterations as they are here
   std::vector<ClothScene> cloths;
-  std::vector<Collider> colliders;    ///< those of figures are the last
+  std::vector<Collider> colliders;  ///< those of figures are the last
   std::vector<FigureScene> figures;
   std::optional<WaterScene> water;
   CameraScene camera;
-  std::shared_ptr<Dressed> dressed = std::make_shared<Dressed>();  ///< found when it is first asked for (dressedPlaces())
-  std::vector<std::string> hints;  ///< what is allowed and rarely meant, one line each
+  std::shared_ptr<Dressed> dressed =
+      std::make_shared<Dressed>();  ///< found when it is first asked for (dressedPlaces())
+  std::vector<std::string> hints;   ///< what is allowed and rarely meant, one line each
 
   SolverKind solver() const { return clothSolver ? SolverKind::wetcloth : SolverKind::bullet; }
   bool hasGarments() const;

@@ -24,9 +24,26 @@ inline const KeyTable solver{"solver", {"small_steps", "stiffness_n_m", "guard"}
 inline const KeyTable guard{"guard", {"thickness_m", "self", "others", "every", "friction", "bodies", "untangle"}};
 
 inline const KeyTable cloth{"cloth",
-                            {"name", "patch", "obj", "garment", "fabric", "pins", "initial_saturation", "water_pace", "friction",
-                             "damping", "margin_m", "collisions", "self_collision", "clusters", "twist", "motion",
-                             "spring_stiffness_n_m", "bending_stiffness_n_m", "spring_damping_n_s_m", "effects"}};
+                            {"name",
+                             "patch",
+                             "obj",
+                             "garment",
+                             "fabric",
+                             "pins",
+                             "initial_saturation",
+                             "water_pace",
+                             "friction",
+                             "damping",
+                             "margin_m",
+                             "collisions",
+                             "self_collision",
+                             "clusters",
+                             "twist",
+                             "motion",
+                             "spring_stiffness_n_m",
+                             "bending_stiffness_n_m",
+                             "spring_damping_n_s_m",
+                             "effects"}};
 
 inline const KeyTable patch{"patch",
                             {"columns", "rows", "origin_m", "edge_u_m", "edge_v_m", "mechanical_stiffness",
@@ -52,8 +69,7 @@ inline const KeyTable exposureBelow{"exposureBelow", {"below_m"}};
 
 inline const KeyTable gust{"gust", {"mean_m_s", "amplitude_m_s", "period_s"}};
 
-inline const KeyTable collider{
-    "collider", {"plane", "box", "sphere", "capsule", "cylinder", "hull", "mesh", "motion"}};
+inline const KeyTable collider{"collider", {"plane", "box", "sphere", "capsule", "cylinder", "hull", "mesh", "motion"}};
 
 inline const KeyTable plane{"plane", {"normal", "offset_m"}};
 
@@ -76,8 +92,8 @@ inline const KeyTable parts{"parts", {"$schema", "description", "parts"}};
 
 inline const KeyTable part{"part", {"joint", "spheres"}};
 
-inline const KeyTable garment{
-    "garment", {"file", "panels", "seams", "fabrics", "sewing_s", "settling_s", "flexion_stiffness"}};
+inline const KeyTable garment{"garment",
+                              {"file", "panels", "seams", "fabrics", "sewing_s", "settling_s", "flexion_stiffness"}};
 
 inline const KeyTable pattern{"pattern", {"$schema", "description", "panels", "seams"}};
 
@@ -92,9 +108,10 @@ inline const KeyTable panelFabric{"panelFabric", {"panel", "fabric"}};
 inline const KeyTable camera{"camera", {"direction", "field_of_view_deg"}};
 
 /// But for those of effects, which stand in the catalogue.
-inline const std::vector<const KeyTable*> all{&scene,    &solver, &guard,         &waterPace, &obj,   &cloth,  &patch,
-                                              &fabric,   &pins,   &exposureBelow, &gust,      &twist, &motion, &water,
-                                              &collider, &plane,  &box,           &sphere,    &camera, &capsule, &cylinder, &hull, &rigidMotion, &figure, &parts, &part, &garment, &pattern, &panel, &seam, &seamSide, &panelFabric};
+inline const std::vector<const KeyTable*> all{
+    &scene,       &solver, &guard, &waterPace, &obj,     &cloth,   &patch,  &fabric, &pins,     &exposureBelow, &gust,
+    &twist,       &motion, &water, &collider,  &plane,   &box,     &sphere, &camera, &capsule,  &cylinder,      &hull,
+    &rigidMotion, &figure, &parts, &part,      &garment, &pattern, &panel,  &seam,   &seamSide, &panelFabric};
 
 }  // namespace keys
 }  // namespace command

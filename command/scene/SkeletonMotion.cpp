@@ -39,10 +39,12 @@ void requireFinite(const aiNodeAnim& channel) {
 /// What keys tell at this time, between two of them in between.
 template <class Key, class Mix>
 auto valueAt(const Key* keys, unsigned count, double time, Mix mix) {
-  const Key* const next = std::upper_bound(keys, keys + count, time, [](double t, const Key& k) { return t < k.mTime; });
+  const Key* const next =
+      std::upper_bound(keys, keys + count, time, [](double t, const Key& k) { return t < k.mTime; });
   if (next == keys) return keys[0].mValue;
   if (next == keys + count) return keys[count - 1].mValue;
-  return mix(next[-1].mValue, next->mValue, static_cast<ai_real>((time - next[-1].mTime) / (next->mTime - next[-1].mTime)));
+  return mix(next[-1].mValue, next->mValue,
+             static_cast<ai_real>((time - next[-1].mTime) / (next->mTime - next[-1].mTime)));
 }
 
 /// Without scale: bones are rigid.
@@ -125,10 +127,9 @@ class SkeletonReader {
       place.setOrigin(rest.getOrigin());
     }
     if (channel.mNumPositionKeys > 0) {
-      place.setOrigin(plain(valueAt(channel.mPositionKeys, channel.mNumPositionKeys, tick,
-                                    [](const aiVector3D& a, const aiVector3D& b, ai_real share) {
-                                      return a + (b - a) * share;
-                                    })));
+      place.setOrigin(
+          plain(valueAt(channel.mPositionKeys, channel.mNumPositionKeys, tick,
+                        [](const aiVector3D& a, const aiVector3D& b, ai_real share) { return a + (b - a) * share; })));
     }
     return place;
   }

@@ -14,9 +14,9 @@ namespace command {
 struct SkeletonMotion {
   struct Joint {
     std::string name;
-    std::vector<btTransform> places;    ///< in the world, one for each time, turned from how it is at rest
-    std::vector<btVector3> ends;        ///< of its bones: where the next joints are, as seen from it at rest [m]
-    std::vector<btVector3> skin;        ///< vertices of the file's mesh that follow this joint most, seen from it [m]
+    std::vector<btTransform> places;  ///< in the world, one for each time, turned from how it is at rest
+    std::vector<btVector3> ends;      ///< of its bones: where the next joints are, as seen from it at rest [m]
+    std::vector<btVector3> skin;      ///< vertices of the file's mesh that follow this joint most, seen from it [m]
   };
   std::vector<double> times;  ///< [s], the first is 0
   std::vector<Joint> joints;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // What is drawn of a collider is the shape that Bullet has: the volume within its pieces tells.
 
-#include "command/scene/ColliderShape.h"
 #include "command/scene/ColliderSurface.h"
+#include "command/scene/ColliderShape.h"
 
 #include <gtest/gtest.h>
 

@@ -26,7 +26,11 @@ constexpr int kSide = 5;
 Json panel(const std::string& name, double z) {
   return {{"name", name},
           {"patch",
-           {{"columns", kSide}, {"rows", kSide}, {"origin_m", {-0.2, 0, z}}, {"edge_u_m", {0.4, 0, 0}}, {"edge_v_m", {0, 0.4, 0}}}}};
+           {{"columns", kSide},
+            {"rows", kSide},
+            {"origin_m", {-0.2, 0, z}},
+            {"edge_u_m", {0.4, 0, 0}},
+            {"edge_v_m", {0, 0.4, 0}}}}};
 }
 
 Json seam(const std::string& line) {
@@ -92,8 +96,8 @@ TEST(Garment, LinksAreAsLongAsInTheFlatPanels) {
   EXPECT_FALSE(body->m_bUpdateRtCst) << "Bullet would take the lengths anew";
   for (int k = 0; k < body->m_links.size(); ++k) {
     const double length = static_cast<double>(body->m_links[k].m_rl) / side;
-    const double nearest = std::min({std::abs(length - 1), std::abs(length - std::sqrt(2)), std::abs(length - 2),
-                                     std::abs(length - std::sqrt(5))});
+    const double nearest = std::min(
+        {std::abs(length - 1), std::abs(length - std::sqrt(2)), std::abs(length - 2), std::abs(length - std::sqrt(5))});
     EXPECT_LT(nearest, 1e-4) << length;
   }
 }
@@ -137,7 +141,8 @@ TEST(Garment, WaterGoesAcrossASeam) {
   Json json = sack();
   json["gravity_m_s2"] = {0, 0, 0};
   json["duration_s"] = 2;
-  json["cloths"][0]["effects"] = {{"diffusion", {{"warp_diffusivity_m2_s", 0.01}, {"weft_diffusivity_m2_s", 0.01}, {"exponent", 0}}}};
+  json["cloths"][0]["effects"] = {
+      {"diffusion", {{"warp_diffusivity_m2_s", 0.01}, {"weft_diffusivity_m2_s", 0.01}, {"exponent", 0}}}};
   const TemporaryDirectory directory;
   const command::Scene scene = sceneOf(json, directory);
   command::SceneWorld world(scene);
@@ -160,14 +165,16 @@ TEST(Garment, BadPanelsAndSeamsAreNamed) {
       sceneOf(json, directory);
       ADD_FAILURE() << pointer << " was taken";
     } catch (const std::exception& error) {
-      for (const std::string& word : words) EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+      for (const std::string& word : words)
+        EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
     }
   };
   refused("/seams/0/first/panel", "frnt", {"/seams/0/first/panel", "\"front\""});
   refused("/seams/0/first/line", "lft", {"/seams/0/first/line", "\"left\""});
   refused("/seams/0/second", {{"panel", "back"}, {"nodes", {0, 5}}}, {"/seams/0", "5 and 2"});
   refused("/seams/0/second", {{"panel", "back"}, {"nodes", {99}}}, {"/seams/0/second/nodes/0", "from 0 to 24"});
-  refused("/seams/0", {{"first", {{"panel", "front"}, {"nodes", {0}}}}, {"second", {{"panel", "front"}, {"nodes", {1}}}}},
+  refused("/seams/0",
+          {{"first", {{"panel", "front"}, {"nodes", {0}}}}, {"second", {{"panel", "front"}, {"nodes", {1}}}}},
           {"join two corners of a triangle", "\"front\""});
   refused("/panels/1/name", "front", {"/panels/1/name", "another panel"});
   refused("/panels", Json::array(), {"/panels", "at least one"});

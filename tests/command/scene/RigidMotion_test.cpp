@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Where bodies are between the times that a scene tells, and how fast they get there.
 
-#include "command/scene/Collider.h"
 #include "command/scene/RigidMotion.h"
+#include "command/scene/Collider.h"
 
 #include <gtest/gtest.h>
 
