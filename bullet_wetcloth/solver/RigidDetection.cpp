@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/bullet/ImpulseMatrix.h"
 #include "bullet_wetcloth/solver/ShapeDistance.h"
 
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletSoftBody/btSoftBodyInternals.h>
 
@@ -18,6 +19,17 @@ btRigidBody* rigidOf(const btCollisionObjectWrapper& object) {
 
 bool isPlane(const btCollisionObject& object) {
   return object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
+}
+
+// Of triangles Bullet shows a new hull in each step; these are not kept.
+bool isOwnHull(const btCollisionShape& shape, const btCollisionShape& root) {
+  if (shape.getShapeType() != CONVEX_HULL_SHAPE_PROXYTYPE) return false;
+  if (root.getShapeType() != COMPOUND_SHAPE_PROXYTYPE) return &shape == &root;
+  const auto& compound = static_cast<const btCompoundShape&>(root);
+  for (int k = 0; k < compound.getNumChildShapes(); ++k) {
+    if (compound.getChildShape(k) == &shape) return true;
+  }
+  return false;
 }
 
 // A hull and Bullet's margin around it.
@@ -122,7 +134,7 @@ void RigidDetection::detect(btSoftBody& body, LocalNodes& nodes, const btCollisi
     nodes.forEachPredictedIn(least - around, largest + around, [&](btSoftBody::Node& node) { contacts.test(node); });
   };
   if (MeasuredShape::isOne(shape)) return testEachBy(MeasuredShape(shape));
-  if (shape.getShapeType() == CONVEX_HULL_SHAPE_PROXYTYPE) {
+  if (isOwnHull(shape, *root.getCollisionShape())) {
     const auto& hull = static_cast<const btConvexHullShape&>(shape);
     const HullPlanes& sides = m_hulls.of(hull).sides;
     if (!sides.isEmpty()) return testEachBy(MeasuredHull(sides, hull.getMargin()));

@@ -117,7 +117,6 @@ nlohmann::ordered_json RunReport::json() const {
   json["links"] = m_links;
   json["effects"] = m_effects;
   json["wall_ms_per_step"] = m_times.wetMilliseconds;
-  json["of_real_time"] = ofRealTime();
   if (m_times.plainMilliseconds) json["bullet_ms_per_step"] = *m_times.plainMilliseconds;
   json["ledger"] = {{"initial", m_ledger.initial}, {"absorbed", m_ledger.absorbed}, {"evaporated", m_ledger.evaporated},
                     {"dripped", m_ledger.dripped}, {"held", m_ledger.held},         {"run_off", m_ledger.runOff}};
