@@ -289,8 +289,8 @@ TEST(WaterCycleBadInput, MotionsThatCannotBe) {
   const Json offset = {0, 0, 0};
   expectRefusedAt(goodScene(), motion + "/times_s/1", 0, "later than the time before");
   expectRefusedAt(goodScene(), motion + "/times_s", Json::array(), "at least one time");
-  expectRefusedAt(goodScene(), motion + "/offsets_m", Json::array(), "one offset for each of times_s, 2");
-  expectRefusedAt(goodScene(), motion + "/offsets_m", {offset, offset, offset}, "one offset for each of times_s, 2");
+  expectRefusedAt(goodScene(), motion + "/offsets_m", Json::array(), "one element for each of times_s, 2");
+  expectRefusedAt(goodScene(), motion + "/offsets_m", {offset, offset, offset}, "one element for each of times_s, 2");
   expectRefusedAt(goodScene(), motion + "/offsets_m/1", {0, 1}, "must be an array of three numbers");
   Json scene = goodScene();
   clothOf(scene)["twist"] = {{"edge", "top"}};
