@@ -30,6 +30,12 @@ def dip(end, depth):
     return np.stack([end[0] * np.cos(angle), end[1] - depth * np.sin(angle)], axis=1)
 
 
+def bent(begin, towards, end):
+    """A parabola that leaves `begin` and comes to `end` in the directions of a point between."""
+    share = np.linspace(0, 1, 200)[:, None]
+    return (1 - share) ** 2 * np.asarray(begin) + 2 * share * (1 - share) * np.asarray(towards) + share**2 * np.asarray(end)
+
+
 def mirrored(edges):
     """Those of the right side."""
     return {name.replace("left", "right"): points * [-1, 1] for name, points in edges.items()}
@@ -72,13 +78,14 @@ def sleeves(edges, spacing, front_z, back_z):
 
 def side_edges(corners, spacing):
     """Edges of the left side between named corners, each from the neck outwards or downwards."""
-    ways = {"shoulder_left": "neck shoulder", "armhole_left": "shoulder underarm", "side_left": "underarm hem",
-            "sleeve_top_left": "shoulder cuff_top", "cuff_left": "cuff_top cuff_bottom", "sleeve_bottom_left": "underarm cuff_bottom"}
-    return {name: evenly([corners[corner] for corner in way.split()], spacing) for name, way in ways.items()}
+    ways = {"shoulder_left": "neck shoulder", "side_left": "underarm hem", "sleeve_top_left": "shoulder cuff_top",
+            "cuff_left": "cuff_top cuff_bottom", "sleeve_bottom_left": "underarm cuff_bottom"}
+    edges = {name: evenly([corners[corner] for corner in way.split()], spacing) for name, way in ways.items()}
+    return edges | {"armhole_left": evenly(bent(corners["shoulder"], corners["armpit"], corners["underarm"]), spacing)}
 
 
 def tshirt(spacing=0.0134, front_z=0.137, back_z=-0.158):
-    corners = {"neck": (0.085, 1.520), "shoulder": (0.205, 1.487), "underarm": (0.275, 1.216), "hem": (0.278, 0.86),
+    corners = {"neck": (0.085, 1.524), "shoulder": (0.205, 1.478), "armpit": (0.200, 1.32), "underarm": (0.275, 1.216), "hem": (0.278, 0.86),
                "cuff_top": by_arm(0.235, 0.085), "cuff_bottom": by_arm(0.265, -0.085)}
     edges = side_edges(corners, spacing)
     edges |= mirrored(edges)
@@ -94,10 +101,10 @@ def tshirt(spacing=0.0134, front_z=0.137, back_z=-0.158):
                    seams + sleeve_seams({"left": "front", "right": "front"}))
 
 
-def bathrobe(spacing=0.0212, front_z=0.137, back_z=-0.160, between_fronts=0.012):
+def bathrobe(spacing=0.0212, front_z=0.137, back_z=-0.160, between_fronts=0.020):
     overlap, belt = 0.06, 1.06
-    corners = {"neck": (0.085, 1.540), "shoulder": (0.215, 1.504), "underarm": (0.31, 1.160), "hem": (0.38, 0.28),
-               "cuff_top": by_arm(0.55, 0.105), "cuff_bottom": by_arm(0.55, -0.105)}
+    corners = {"neck": (0.080, 1.542), "shoulder": (0.215, 1.492), "armpit": (0.205, 1.28), "underarm": (0.31, 1.160), "hem": (0.375, 0.36),
+               "cuff_top": by_arm(0.55, 0.092), "cuff_bottom": by_arm(0.55, -0.118)}
     edges = side_edges(corners, spacing)
     lapel_end, corner = (-overlap, 1.12), (-overlap, corners["hem"][1])
     edges |= {"lapel_left": evenly([corners["neck"], lapel_end], spacing), "edge_left": evenly([lapel_end, corner], spacing),

@@ -70,18 +70,26 @@ class Panel:
         for mark, places in (marks or {}).items():
             self.lines[mark] = list(range(len(self.points), len(self.points) + len(places)))
             self.points = np.concatenate([self.points, places])
-        fixed = len(self.points)
+        self._fill(outline, spacing)
+        self._require_sound(len(outline))
+
+    def _fill(self, outline, spacing):
+        """With a lattice, as far from the outline as makes the least angle largest."""
+        fixed = self.points
         inner = lattice(outline, spacing)
         inner = inner[is_inside(inner, outline)]
-        inner = inner[distance_to(inner, outline) >= 0.6 * spacing]
-        away = np.linalg.norm(inner[:, None] - self.points[None], axis=2).min(axis=1)
-        self.points = np.concatenate([self.points, inner[away >= 0.6 * spacing]])
-        for _ in range(self.ROUNDS):
+        away = np.minimum(distance_to(inner, outline), np.linalg.norm(inner[:, None] - fixed[None], axis=2).min(axis=1))
+        best = None
+        for least in (0.6, 0.65, 0.7, 0.75):
+            self.points = np.concatenate([fixed, inner[away >= least * spacing]])
+            for _ in range(self.ROUNDS):
+                self._triangulate(outline)
+                self._even_out(len(fixed))
+            self.points = np.round(self.points, 5)
             self._triangulate(outline)
-            self._even_out(fixed)
-        self.points = np.round(self.points, 5)
-        self._triangulate(outline)
-        self._require_sound(len(outline))
+            if best is None or self.least_angle() > best[0]:
+                best = self.least_angle(), self.points, self.triangles
+        _, self.points, self.triangles = best
 
     def _outline(self, edges):
         loop, at = [], {}
