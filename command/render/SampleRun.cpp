@@ -49,11 +49,29 @@ ClothState mix(const ClothState& a, const ClothState& b, double share) {
   return mixed;
 }
 
+/// The shorter way round.
+pictures::Pose mix(const pictures::Pose& a, const pictures::Pose& b, double share) {
+  pictures::Pose mixed;
+  float alike = 0;
+  for (std::size_t i = 0; i < 4; ++i) alike += a.turn[i] * b.turn[i];
+  float length = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    mixed.turn[i] = mix(a.turn[i], alike < 0 ? -b.turn[i] : b.turn[i], share);
+    length += mixed.turn[i] * mixed.turn[i];
+  }
+  for (float& component : mixed.turn) component /= std::sqrt(length);
+  for (std::size_t axis = 0; axis < 3; ++axis) mixed.place[axis] = mix(a.place[axis], b.place[axis], share);
+  return mixed;
+}
+
 /// Between two steps. Drops come and go, so they are those of the later one.
 Sample mix(const Sample& a, const Sample& b, double share) {
   Sample mixed;
   for (std::size_t i = 0; i < a.frame.cloths.size(); ++i) {
     mixed.frame.cloths.push_back(mix(a.frame.cloths[i], b.frame.cloths[i], share));
+  }
+  for (std::size_t i = 0; i < a.frame.poses.size(); ++i) {
+    mixed.frame.poses.push_back(mix(a.frame.poses[i], b.frame.poses[i], share));
   }
   mixed.frame.drops = b.frame.drops;
   for (std::size_t i = 0; i < a.numbers.size(); ++i) {
