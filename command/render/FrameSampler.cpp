@@ -34,20 +34,8 @@ std::vector<pictures::Texture> textureOf(const wetcloth::ClothPatch& patch) {
   return texture;
 }
 
-/// The mesh seen along the axis in which it reaches least far.
 std::vector<pictures::Texture> textureOf(const TriangleMesh& mesh) {
-  btVector3 low = mesh.vertices.front();
-  btVector3 high = low;
-  for (const btVector3& vertex : mesh.vertices) {
-    low.setMin(vertex);
-    high.setMax(vertex);
-  }
-  const int thin = (high - low).minAxis();
-  std::vector<pictures::Texture> texture;
-  for (const btVector3& vertex : mesh.vertices) {
-    texture.push_back({static_cast<float>(vertex[(thin + 1) % 3]), static_cast<float>(vertex[(thin + 2) % 3])});
-  }
-  return texture;
+  return mesh.sheet.empty() ? sheetOf(mesh.vertices) : mesh.sheet;
 }
 
 std::optional<pictures::TextureMap> ownTextureOf(const ClothScene& scene) {

@@ -38,22 +38,6 @@ TriangleMesh meshOf(const ClothPatch& patch) {
   return mesh;
 }
 
-/// Seen along the axis in which it reaches least far.
-std::vector<std::array<float, 2>> sheetOf(const std::vector<btVector3>& vertices) {
-  btVector3 low = vertices.front();
-  btVector3 high = low;
-  for (const btVector3& vertex : vertices) {
-    low.setMin(vertex);
-    high.setMax(vertex);
-  }
-  const int thin = (high - low).minAxis();
-  std::vector<std::array<float, 2>> sheet;
-  for (const btVector3& vertex : vertices) {
-    sheet.push_back({static_cast<float>(vertex[(thin + 1) % 3]), static_cast<float>(vertex[(thin + 2) % 3])});
-  }
-  return sheet;
-}
-
 GarmentPanel readPanel(const JsonCursor& cursor) {
   GarmentPanel panel;
   panel.name = cursor.at("name").text();

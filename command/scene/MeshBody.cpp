@@ -39,7 +39,7 @@ std::vector<btScalar> nodeMasses(const TriangleMesh& mesh, double arealDensity) 
   return {masses.begin(), masses.end()};
 }
 
-/// The square of the height of a triangle over its edge, and how far along the edge it stands from the first end.
+/// How high a triangle's third corner stands over an edge, and how far along the edge from its first end [m].
 struct Apex {
   double along;
   double height;

@@ -35,4 +35,7 @@ struct TriangleMesh {
   }
 };
 
+/// Of each vertex its place seen along the axis in which all of them reach least far [m].
+std::vector<std::array<float, 2>> sheetOf(const std::vector<btVector3>& vertices);
+
 }  // namespace command

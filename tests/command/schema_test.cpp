@@ -90,6 +90,7 @@ TEST(Schema, AcceptsEveryScene) {
   std::vector<std::string> files = sceneFiles();
   files.push_back(WETCLOTH_SOURCE_DIR "/tests/scenes/small.json");
   files.push_back(WETCLOTH_SOURCE_DIR "/tests/scenes/water_cycle.json");
+  files.push_back(WETCLOTH_SOURCE_DIR "/examples/scenes/figures/shirt_walking_in_rain.json");
   EXPECT_EQ(complaints(files), "");
 }
 
