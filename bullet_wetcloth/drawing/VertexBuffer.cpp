@@ -73,15 +73,21 @@ double shareOf(double saturation) { return saturation > 0 ? (saturation < 1 ? sa
 void fillVertexBuffer(const WetCloth& cloth, const VertexBuffer& buffer) {
   const btSoftBody& body = cloth.body();
   requireValid(buffer, cloth.nodeCount());
-  const Looks looks(cloth.fabric());
   const Water& water = cloth.water();
+  std::size_t fabric = water.fabric(0);
+  Looks looks(cloth.fabrics()[fabric]);
   Cursor position(buffer.base, buffer.position);
   Cursor normal(buffer.base, buffer.normal);
   Cursor colour(buffer.base, buffer.colour);
   Cursor roughness(buffer.base, buffer.roughness);
   for (int i = 0; i < buffer.vertexCount; ++i) {
     const btSoftBody::Node& node = body.m_nodes[i];
-    const double wetness = shareOf(water.saturation(static_cast<std::size_t>(i)));
+    const std::size_t place = static_cast<std::size_t>(i);
+    if (water.fabric(place) != fabric) {  // panels of a garment have their nodes one after the other
+      fabric = water.fabric(place);
+      looks = Looks(cloth.fabrics()[fabric]);
+    }
+    const double wetness = shareOf(water.saturation(place));
     position.write(node.m_x.x(), node.m_x.y(), node.m_x.z());
     normal.write(node.m_n.x(), node.m_n.y(), node.m_n.z());
     colour.write(mix(looks.dry.r, looks.wet.r, wetness), mix(looks.dry.g, looks.wet.g, wetness),
