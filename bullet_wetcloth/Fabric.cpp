@@ -43,12 +43,12 @@ Fabric Fabric::byName(const std::string& name) {
   rejectValue("fabric", '"' + name + '"', "one of " + known);
 }
 
-void requireValid(const Fabric& fabric) {
-  requirePositive("fabric.capacity", fabric.capacity);
-  requirePositive("fabric.timeConstant", fabric.timeConstant);
-  requirePositive("fabric.arealDensity", fabric.arealDensity);
-  for (const double channel : fabric.dryColour) requireFraction("fabric.dryColour", channel);
-  requireFraction("fabric.dryRoughness", fabric.dryRoughness);
+void requireValid(const Fabric& fabric, const std::string& name) {
+  requirePositive(name + ".capacity", fabric.capacity);
+  requirePositive(name + ".timeConstant", fabric.timeConstant);
+  requirePositive(name + ".arealDensity", fabric.arealDensity);
+  for (const double channel : fabric.dryColour) requireFraction(name + ".dryColour", channel);
+  requireFraction(name + ".dryRoughness", fabric.dryRoughness);
 }
 
 }  // namespace WETCLOTH_PRECISION

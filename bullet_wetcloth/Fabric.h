@@ -51,8 +51,9 @@ struct WETCLOTH_EXPORT Fabric {
   static Fabric byName(const std::string& name);
 };
 
-/// Throws std::invalid_argument naming the field and its value when a field is out of its range.
-WETCLOTH_EXPORT void requireValid(const Fabric& fabric);
+/// Throws std::invalid_argument naming the field and its value when a field is out of its range. `name` is what the
+/// message calls the fabric.
+WETCLOTH_EXPORT void requireValid(const Fabric& fabric, const std::string& name = "fabric");
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

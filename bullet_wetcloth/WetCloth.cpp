@@ -17,10 +17,21 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-WetCloth::WetCloth(WetClothWorld& world, btSoftBody& body, Fabric fabric, bool deformable)
+namespace {
+
+std::vector<double> ofEach(const std::vector<Fabric>& fabrics, double Fabric::*field) {
+  std::vector<double> values;
+  for (const Fabric& fabric : fabrics) values.push_back(fabric.*field);
+  return values;
+}
+
+}  // namespace
+
+WetCloth::WetCloth(WetClothWorld& world, btSoftBody& body, std::vector<Fabric> fabrics, std::vector<int> fabricOfNode,
+                   bool deformable)
     : m_world(world),
       m_body(body),
-      m_fabric(std::move(fabric)),
+      m_fabrics(std::move(fabrics)),
       m_deformable(deformable),
       m_masses(body, deformable),
       m_linkConstants(body),
@@ -28,7 +39,8 @@ WetCloth::WetCloth(WetClothWorld& world, btSoftBody& body, Fabric fabric, bool d
       m_packedNodes(body, deformable),
       m_effects(*this),
       m_watch(body) {
-  m_water.reset(dryMasses(m_body, m_fabric.arealDensity), m_fabric.capacity);
+  std::vector<double> masses = dryMasses(m_body, ofEach(m_fabrics, &Fabric::arealDensity), fabricOfNode);
+  m_water.reset(std::move(masses), ofEach(m_fabrics, &Fabric::capacity), std::move(fabricOfNode));
   m_masses.remember();
 }
 
@@ -216,7 +228,7 @@ void WetCloth::adaptToBody() {
   const bool nodesChanged = m_watch.nodesChanged();
   m_watch.remember();
   if (nodesChanged) {
-    redistributeWater(m_body, m_fabric.arealDensity, m_water);
+    redistributeWater(m_body, ofEach(m_fabrics, &Fabric::arealDensity), m_water);
     m_masses.remember();
     if (m_water.movedSinceCommit()) commit();
     log("wetcloth: the body's nodes changed from " + std::to_string(nodesBefore) + " to " +
@@ -251,6 +263,7 @@ int WetCloth::nodeCount() const {
   return static_cast<int>(m_water.size());
 }
 
+const Fabric& WetCloth::fabric(int node) const { return fabricOf(checked(node)); }
 double WetCloth::saturation(int node) const { return m_water.saturation(checked(node)); }
 double WetCloth::held(int node) const { return m_water.held(checked(node)); }
 double WetCloth::dryMass(int node) const { return m_water.dryMass(checked(node)); }
@@ -304,11 +317,15 @@ std::size_t WetCloth::checked(int node) const {
 // --- looks ----------------------------------------------------------------------------------------------------------
 
 Colour WetCloth::colour(int node) const {
-  const std::array<double, 3>& dry = m_fabric.dryColour;
-  return wetColour({dry[0], dry[1], dry[2]}, saturation(node));
+  const std::size_t i = checked(node);
+  const std::array<double, 3>& dry = fabricOf(i).dryColour;
+  return wetColour({dry[0], dry[1], dry[2]}, m_water.saturation(i));
 }
 
-double WetCloth::roughness(int node) const { return wetRoughness(m_fabric.dryRoughness, saturation(node)); }
+double WetCloth::roughness(int node) const {
+  const std::size_t i = checked(node);
+  return wetRoughness(fabricOf(i).dryRoughness, m_water.saturation(i));
+}
 
 // --- save and restore -----------------------------------------------------------------------------------------------
 

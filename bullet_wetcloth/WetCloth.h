@@ -29,7 +29,7 @@ inline namespace WETCLOTH_PRECISION {
 
 class WetClothWorld;
 
-/// One btSoftBody of an application, its water, its fabric and its effects. Made by WetClothWorld::add().
+/// One btSoftBody of an application, its water, its fabrics and its effects. Made by WetClothWorld::add().
 ///
 /// Units are SI. Nodes are numbered as in btSoftBody::m_nodes.
 class WETCLOTH_EXPORT WetCloth {
@@ -42,8 +42,13 @@ class WETCLOTH_EXPORT WetCloth {
   btSoftBody& body() { return m_body; }
   /// The same, to look at.
   const btSoftBody& body() const { return m_body; }
-  /// What it is made of, as given to WetClothWorld::add().
-  const Fabric& fabric() const { return m_fabric; }
+  /// What it is made of, as given to WetClothWorld::add(): the first fabric where there are several.
+  const Fabric& fabric() const { return m_fabrics.front(); }
+  /// All that it is made of, at least one.
+  const std::vector<Fabric>& fabrics() const { return m_fabrics; }
+  /// What a node is made of. One that a cut or a refinement made is of the fabric that it was cut from. Throws
+  /// std::out_of_range.
+  const Fabric& fabric(int node) const;
 
   /// How often its water moves, and when its weight follows.
   const WaterPace& pace() const { return m_pace; }
@@ -157,6 +162,8 @@ class WETCLOTH_EXPORT WetCloth {
   Water& water() { return m_water; }
   /// The same, to look at.
   const Water& water() const { return m_water; }
+  /// What a node is made of, as fabric(int) but unchecked: within a step.
+  const Fabric& fabricOf(std::size_t node) const { return m_fabrics[m_water.fabric(node)]; }
   /// The one writer of the nodes' masses.
   NodeMasses& masses() { return m_masses; }
   /// The same, to look at.
@@ -210,7 +217,8 @@ class WETCLOTH_EXPORT WetCloth {
 
  private:
   friend class WetClothWorld;
-  WetCloth(WetClothWorld& world, btSoftBody& body, Fabric fabric, bool deformable);
+  WetCloth(WetClothWorld& world, btSoftBody& body, std::vector<Fabric> fabrics, std::vector<int> fabricOfNode,
+           bool deformable);
 
   /// First of all, before any cloth's step(): observe. Never throws.
   void observe(const Step& step);
@@ -252,7 +260,7 @@ class WETCLOTH_EXPORT WetCloth {
 
   WetClothWorld& m_world;
   btSoftBody& m_body;
-  Fabric m_fabric;
+  std::vector<Fabric> m_fabrics;
   bool m_deformable;
   Water m_water;
   NodeMasses m_masses;

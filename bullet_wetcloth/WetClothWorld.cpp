@@ -48,6 +48,19 @@ bool isReduced(const btSoftBody& body) {
 #endif
 }
 
+void requireValid(const std::vector<Fabric>& fabrics, const std::vector<int>& fabricOfNode, int nodes) {
+  if (fabrics.empty()) rejectValue("fabrics.size()", 0, "at least 1");
+  for (std::size_t k = 0; k < fabrics.size(); ++k) requireValid(fabrics[k], "fabrics[" + std::to_string(k) + "]");
+  if (fabricOfNode.size() != static_cast<std::size_t>(nodes)) {
+    rejectValue("fabricOfNode.size()", fabricOfNode.size(), "the number of nodes, " + std::to_string(nodes));
+  }
+  for (std::size_t i = 0; i < fabricOfNode.size(); ++i) {
+    if (fabricOfNode[i] >= 0 && static_cast<std::size_t>(fabricOfNode[i]) < fabrics.size()) continue;
+    rejectValue("fabricOfNode[" + std::to_string(i) + "]", fabricOfNode[i],
+                "in [0, " + std::to_string(fabrics.size()) + ")");
+  }
+}
+
 bool hasGravityForce(btDeformableBodySolver& solver) {
   const btAlignedObjectArray<btDeformableLagrangianForce*>& forces = *solver.getLagrangianForceArray();
   for (int i = 0; i < forces.size(); ++i) {
@@ -102,9 +115,14 @@ void WetClothWorld::noticeDeletion(const WetCloth& cloth) {
 }
 
 WetCloth& WetClothWorld::add(btSoftBody& body, const Fabric& fabric) {
+  requireValid(fabric);
+  return add(body, {fabric}, std::vector<int>(static_cast<std::size_t>(body.m_nodes.size()), 0));
+}
+
+WetCloth& WetClothWorld::add(btSoftBody& body, std::vector<Fabric> fabrics, std::vector<int> fabricOfNode) {
   if (const WetCloth* const known = find(body)) noticeDeletion(*known);
   requireAttached();
-  requireValid(fabric);
+  requireValid(fabrics, fabricOfNode, body.m_nodes.size());
   if (BodyWatch(body).lostItsWorld() || !isInWorld(body)) {
     reject("body", "is not in this world; add it to the world first");
   }
@@ -117,13 +135,19 @@ WetCloth& WetClothWorld::add(btSoftBody& body, const Fabric& fabric) {
   if (m_hook == Hook::preTick && !isHooked()) {
     log("wetcloth: another pre-tick callback has replaced ours; no cloth will get wet unless it calls preTick()");
   }
-  m_cloths.push_back(std::unique_ptr<WetCloth>(new WetCloth(*this, body, fabric, isDeformable(m_world))));
+  m_cloths.push_back(std::unique_ptr<WetCloth>(
+      new WetCloth(*this, body, std::move(fabrics), std::move(fabricOfNode), isDeformable(m_world))));
   return *m_cloths.back();
 }
 
 WetCloth& WetClothWorld::add(btSoftBody* body, const Fabric& fabric) {
   if (!body) reject("body", "must not be null");
   return add(*body, fabric);
+}
+
+WetCloth& WetClothWorld::add(btSoftBody* body, std::vector<Fabric> fabrics, std::vector<int> fabricOfNode) {
+  if (!body) reject("body", "must not be null");
+  return add(*body, std::move(fabrics), std::move(fabricOfNode));
 }
 
 void WetClothWorld::remove(btSoftBody& body) {

@@ -56,6 +56,12 @@ class WETCLOTH_EXPORT WetClothWorld {
   WetCloth& add(btSoftBody& body, const Fabric& fabric = Fabric::cotton());
   /// The same; throws std::invalid_argument on null.
   WetCloth& add(btSoftBody* body, const Fabric& fabric = Fabric::cotton());
+  /// The same for a body that is sewn of several fabrics: node i is of `fabrics[fabricOfNode[i]]`, the first being 0.
+  /// Throws std::invalid_argument, too, when there is no fabric, `fabricOfNode` has not one value per node, or a value
+  /// is not a place in `fabrics`; then nothing has changed.
+  WetCloth& add(btSoftBody& body, std::vector<Fabric> fabrics, std::vector<int> fabricOfNode);
+  /// The same; throws std::invalid_argument on null.
+  WetCloth& add(btSoftBody* body, std::vector<Fabric> fabrics, std::vector<int> fabricOfNode);
   /// Lets go of the world now, so that it and its bodies may be deleted in any order: removes the cloths, whose effects
   /// give back what they changed, and puts the application's callbacks back. Afterwards this object does nothing, its
   /// destructor neither, and add(), save() and restore() throw std::invalid_argument.

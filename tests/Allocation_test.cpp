@@ -123,6 +123,32 @@ TEST_IN_EVERY_WORLD(NoAllocation, InFillingAVertexBuffer) {
   EXPECT_GT(floats.back(), 0);
 }
 
+TEST_IN_EVERY_WORLD(NoAllocation, ByAClothOfSeveralFabrics) {
+  if (!WETCLOTH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer owns operator new";
+  BodyScene scene(GetParam(), hangingPatch(10));
+  wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
+  std::vector<int> halves(50, 0);
+  halves.resize(100, 1);
+  wetcloth::WetCloth& cloth = wet.add(scene.body(), {fabricOf(1, 3), fabricOf(2, 5)}, halves);
+  water_cycle::giveWater(scene.bullet().info(), btScalar(0.4));
+  cloth.add<wetcloth::Absorption>();
+  cloth.add<wetcloth::Immersion>();
+  cloth.add<wetcloth::Diffusion>();
+  cloth.add<wetcloth::Drying>();
+  const btScalar dt = btScalar(1) / 240;
+  for (int turn = 0; turn < 3; ++turn) {
+    wet.preTick(dt);
+    scene.world().stepSimulation(dt, 0);
+  }
+  for (int step = 0; step < 60; ++step) {
+    ASSERT_EQ(allocationsIn([&] { wet.preTick(dt); }), 0) << "in step " << step;
+    scene.world().stepSimulation(dt, 0);
+  }
+  std::vector<float> floats(400);
+  const wetcloth::VertexBuffer buffer = {floats.data(), 100, {}, {}, {0, 4}, {3, 4}};
+  EXPECT_EQ(allocationsIn([&] { wetcloth::fillVertexBuffer(cloth, buffer); }), 0);
+}
+
 // Two layers that lie on each other, with the guard: what Bullet allocates in its own step it does not take from here.
 TEST(NoAllocationOfTheGuard, InALayeredHeapAtRest) {
   if (!WETCLOTH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer owns operator new";

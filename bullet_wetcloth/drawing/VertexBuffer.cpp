@@ -73,20 +73,25 @@ double shareOf(double saturation) { return saturation > 0 ? (saturation < 1 ? sa
 void fillVertexBuffer(const WetCloth& cloth, const VertexBuffer& buffer) {
   const btSoftBody& body = cloth.body();
   requireValid(buffer, cloth.nodeCount());
-  const Looks looks(cloth.fabric());
   const Water& water = cloth.water();
+  const std::size_t nodes = static_cast<std::size_t>(buffer.vertexCount);
   Cursor position(buffer.base, buffer.position);
   Cursor normal(buffer.base, buffer.normal);
   Cursor colour(buffer.base, buffer.colour);
   Cursor roughness(buffer.base, buffer.roughness);
-  for (int i = 0; i < buffer.vertexCount; ++i) {
-    const btSoftBody::Node& node = body.m_nodes[i];
-    const double wetness = shareOf(water.saturation(static_cast<std::size_t>(i)));
-    position.write(node.m_x.x(), node.m_x.y(), node.m_x.z());
-    normal.write(node.m_n.x(), node.m_n.y(), node.m_n.z());
-    colour.write(mix(looks.dry.r, looks.wet.r, wetness), mix(looks.dry.g, looks.wet.g, wetness),
-                 mix(looks.dry.b, looks.wet.b, wetness));
-    roughness.write(mix(looks.dryRoughness, looks.wetRoughness, wetness));
+  // Panels of a garment have their nodes one after the other.
+  for (std::size_t i = 0; i < nodes;) {
+    const std::size_t fabric = water.fabric(i);
+    const Looks looks(cloth.fabrics()[fabric]);
+    for (; i < nodes && water.fabric(i) == fabric; ++i) {
+      const btSoftBody::Node& node = body.m_nodes[static_cast<int>(i)];
+      const double wetness = shareOf(water.saturation(i));
+      position.write(node.m_x.x(), node.m_x.y(), node.m_x.z());
+      normal.write(node.m_n.x(), node.m_n.y(), node.m_n.z());
+      colour.write(mix(looks.dry.r, looks.wet.r, wetness), mix(looks.dry.g, looks.wet.g, wetness),
+                   mix(looks.dry.b, looks.wet.b, wetness));
+      roughness.write(mix(looks.dryRoughness, looks.wetRoughness, wetness));
+    }
   }
 }
 

@@ -47,7 +47,7 @@ void Absorption::attach(WetCloth& cloth) {
   const bool firstTime = m_uptake.size() == 0;
   if (firstTime) m_parameters.exposure.requireSize("Absorption.exposure", cloth.water().size());
   m_uptake.reset(cloth.water().size());
-  m_timeConstant = cloth.fabric().timeConstant;
+  m_uniformShares.assign(cloth.fabrics().size(), 0);
   m_nothingLeft.restart();
   m_hasNormals = false;
 }
@@ -61,12 +61,16 @@ void Absorption::apply(WetCloth& cloth, const Step& step) {
     m_hasNormals = true;
   }
   const bool isUniform = !exposure.isFunction() && !exposure.isPerNode();
-  const double uniformShare =
-      isUniform ? share(exposure.at(0, btVector3(0, 0, 0), btVector3(0, 0, 0), step.middle()), step) : 0;
+  for (std::size_t k = 0; isUniform && k < m_uniformShares.size(); ++k) {
+    const double everywhere = exposure.at(0, btVector3(0, 0, 0), btVector3(0, 0, 0), step.middle());
+    m_uniformShares[k] = share(everywhere, cloth.fabrics()[k].timeConstant, step);
+  }
   bool settled = true;
   for (std::size_t i = 0; i < m_uptake.size(); ++i) {
     const btSoftBody::Node& node = cloth.body().m_nodes[static_cast<int>(i)];
-    const double nodeShare = isUniform ? uniformShare : share(exposure.at(i, node.m_x, node.m_n, step.middle()), step);
+    const double nodeShare =
+        isUniform ? m_uniformShares[cloth.water().fabric(i)]
+                  : share(exposure.at(i, node.m_x, node.m_n, step.middle()), cloth.fabricOf(i).timeConstant, step);
     const bool isFull = takeUp(cloth, i, nodeShare);
     // A function may expose the node later; anything else stays as it is.
     settled = settled && (isFull || (nodeShare == 0 && !exposure.isFunction()));
@@ -75,13 +79,13 @@ void Absorption::apply(WetCloth& cloth, const Step& step) {
   m_nothingLeft.note(cloth.water(), settled);
 }
 
-double Absorption::share(double exposure, const Step& step) const {
+double Absorption::share(double exposure, double timeConstant, const Step& step) const {
   switch (m_parameters.law) {
-    case Law::forwardEuler: return eulerShare(exposure * step.dt / m_timeConstant);
+    case Law::forwardEuler: return eulerShare(exposure * step.dt / timeConstant);
     case Law::ramp: return exposure * step.dt / m_parameters.rampDuration;
     case Law::exponential: break;
   }
-  return exponentialShare(exposure * step.dt / m_timeConstant);
+  return exponentialShare(exposure * step.dt / timeConstant);
 }
 
 // Returns whether the node is full.

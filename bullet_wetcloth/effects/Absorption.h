@@ -7,6 +7,7 @@
 #include "bullet_wetcloth/numerics/NothingLeft.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
@@ -66,11 +67,11 @@ class WETCLOTH_EXPORT Absorption : public Effect {
   long long nodesVisited() const { return m_nodesVisited; }
 
  private:
-  double share(double exposure, const Step& step) const;
+  double share(double exposure, double timeConstant, const Step& step) const;
   bool takeUp(WetCloth& cloth, std::size_t node, double share);
 
   Parameters m_parameters;
-  double m_timeConstant = 0;
+  std::vector<double> m_uniformShares;  // of each fabric, where all nodes are exposed alike
   NodeUptake m_uptake;
   NothingLeft m_nothingLeft;
   bool m_hasNormals = false;

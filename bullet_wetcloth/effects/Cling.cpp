@@ -220,7 +220,7 @@ void Cling::hold(WetCloth& cloth, const Step& step, std::size_t i) {
   Bond& bond = m_bonds[i];
   btSoftBody::Node& node = cloth.body().m_nodes[static_cast<int>(i)];
   const btScalar dt = static_cast<btScalar>(step.dt);
-  const double area = contactArea(cloth.restMesh(), cloth.water(), cloth.fabric().arealDensity, i);
+  const double area = contactArea(cloth.restMesh(), cloth.water(), cloth.fabricOf(i).arealDensity, i);
   const double strength = share(cloth.water().saturation(i)) * area * step.dt;
   const double pull = m_parameters.adhesion * strength;
   const btTransform& frame = bond.object->getWorldTransform();
@@ -260,7 +260,7 @@ void Cling::hold(WetCloth& cloth, const Step& step, std::size_t i) {
 void Cling::holdLayers(WetCloth& cloth) {
   bool isDry = true;
   for (std::size_t i = 0; i < m_pull.size(); ++i) {
-    const double area = contactArea(cloth.restMesh(), cloth.water(), cloth.fabric().arealDensity, i);
+    const double area = contactArea(cloth.restMesh(), cloth.water(), cloth.fabricOf(i).arealDensity, i);
     const double strength = share(cloth.water().saturation(i)) * area / 2;
     isDry = isDry && !(strength > 0);
     m_pull[i] = static_cast<btScalar>(m_parameters.adhesion * strength);

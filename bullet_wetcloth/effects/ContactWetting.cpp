@@ -96,7 +96,8 @@ double differenceAt(const WetCloth& nodesOf, const WetCloth& facesOf, const Face
 }
 
 double areaOf(WetCloth& cloth, int node) {
-  return contactArea(cloth.restMesh(), cloth.water(), cloth.fabric().arealDensity, static_cast<std::size_t>(node));
+  const std::size_t i = toSize(node);
+  return contactArea(cloth.restMesh(), cloth.water(), cloth.fabricOf(i).arealDensity, i);
 }
 
 }  // namespace

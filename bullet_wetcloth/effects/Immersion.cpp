@@ -45,7 +45,7 @@ void Immersion::attach(WetCloth& cloth) {
   const bool firstTime = m_uptake.size() == 0;  // later, the application may have let the water out
   if (firstTime) requireSurface("Immersion.surface", m_parameters.surface, cloth.body());
   m_uptake.reset(cloth.water().size());
-  m_timeConstant = cloth.fabric().timeConstant;
+  m_shares.assign(cloth.fabrics().size(), 0);
   m_steadyState.restart();
   m_nothingLeft.restart();
 }
@@ -75,7 +75,9 @@ void Immersion::soak(WetCloth& cloth, const Step& step) {
   bool isSoaking = false;
   bool isWet = false;
   double clearance = kInfinity;  // of the lowest node that is above and could take water [m]
-  const double share = immersionShare(kInfinity, step.dt, m_timeConstant);
+  for (std::size_t k = 0; k < m_shares.size(); ++k) {
+    m_shares[k] = immersionShare(kInfinity, step.dt, cloth.fabrics()[k].timeConstant);
+  }
   for (std::size_t i = 0; i < m_uptake.size(); ++i) {
     const double room = m_uptake.room(water, i);
     if (!(room > 0)) continue;
@@ -86,7 +88,7 @@ void Immersion::soak(WetCloth& cloth, const Step& step) {
       continue;
     }
     isWet = true;
-    const bool filled = m_uptake.soak(water, i, room, share * room, m_surface->velocity);
+    const bool filled = m_uptake.soak(water, i, room, m_shares[water.fabric(i)] * room, m_surface->velocity);
     isFull = isFull && filled;
     isSoaking = isSoaking || !filled;
   }

@@ -8,6 +8,7 @@
 #include "bullet_wetcloth/numerics/SteadyState.h"
 
 #include <optional>
+#include <vector>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
@@ -18,7 +19,7 @@ inline namespace WETCLOTH_PRECISION {
 /// @param dt     [s]; @param timeConstant  theta [s]
 WETCLOTH_EXPORT double immersionShare(double depth, double dt, double timeConstant);
 
-/// A cloth in a body of water: nodes below its surface soak by the fabric's own law, where they are in each step.
+/// A cloth in a body of water: nodes below its surface soak by their fabric's own law, where they are in each step.
 ///
 /// Idles while every node is full, and once nothing has been left to soak for 64 steps: until the surface, the
 /// cloth's water or its shape changes. A shape that sinks towards the surface is noticed before it is there, and any
@@ -60,7 +61,7 @@ class WETCLOTH_EXPORT Immersion : public Effect {
   Parameters m_parameters;
   NodeUptake m_uptake;
   SteadyState m_steadyState{SteadyState::DependsOn::waterAndShape};
-  double m_timeConstant = 0;
+  std::vector<double> m_shares;           // of each fabric: what a node below fills of its room in the step
   std::optional<WaterSurface> m_surface;  // in the last step
   double m_reachLimit = 0;                // depth of the body's bounds at which an idle cloth above is looked at [m]
   NothingLeft m_nothingLeft;              // to fill

@@ -28,21 +28,29 @@ void requireMasses(const btSoftBody& body) {
   }
 }
 
+// The free nodes of one fabric.
+struct FreeNodes {
+  double mass = 0;
+  double area = 0;
+  int count = 0;
+};
+
 // What a pinned node weighs: by the free nodes' density where there are faces, by their mean elsewhere.
-std::vector<double> pinnedMasses(const btSoftBody& body, const std::vector<double>& areas, double arealDensity) {
-  double freeMass = 0;
-  double freeArea = 0;
-  int freeCount = 0;
+std::vector<double> pinnedMasses(const btSoftBody& body, const std::vector<double>& areas,
+                                 const std::vector<double>& arealDensities, const std::vector<int>& fabricOfNode) {
+  std::vector<FreeNodes> free(arealDensities.size());
   for (std::size_t i = 0; i < areas.size(); ++i) {
     if (!(inverseMassOf(body, i) > 0)) continue;
-    freeMass += 1 / inverseMassOf(body, i);
-    freeArea += areas[i];
-    ++freeCount;
+    FreeNodes& alike = free[toSize(fabricOfNode[i])];
+    alike.mass += 1 / inverseMassOf(body, i);
+    alike.area += areas[i];
+    ++alike.count;
   }
-  const double density = freeArea > 0 ? freeMass / freeArea : arealDensity;
   std::vector<double> masses(areas.size());
   for (std::size_t i = 0; i < areas.size(); ++i) {
-    masses[i] = areas[i] > 0 || freeCount == 0 ? density * areas[i] : freeMass / freeCount;
+    const FreeNodes& alike = free[toSize(fabricOfNode[i])];
+    const double density = alike.area > 0 ? alike.mass / alike.area : arealDensities[toSize(fabricOfNode[i])];
+    masses[i] = areas[i] > 0 || alike.count == 0 ? density * areas[i] : alike.mass / alike.count;
     if (!(masses[i] > 0) && !(inverseMassOf(body, i) > 0)) {
       rejectValue("body.m_nodes[" + std::to_string(i) + "].m_im", 0,
                   "> 0, or the node part of a face: nothing tells what this pinned node weighs");
@@ -79,6 +87,53 @@ std::vector<double> neighbourWaterShare(const btSoftBody& body, const Water& wat
   return share;
 }
 
+btScalar distance2(const btSoftBody& body, std::size_t a, std::size_t b) {
+  return (body.m_nodes[static_cast<int>(a)].m_x - body.m_nodes[static_cast<int>(b)].m_x).length2();
+}
+
+std::size_t nearestOldNode(const btSoftBody& body, std::size_t oldCount, std::size_t added) {
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < oldCount; ++i) {
+    if (distance2(body, i, added) < distance2(body, nearest, added)) nearest = i;
+  }
+  return nearest;
+}
+
+// Of each node: an old one keeps its own, a new one takes that of the nearest old node that it is linked to; one
+// without such a link, as Bullet leaves some, that of the nearest of all.
+std::vector<int> fabricsAfterCut(const btSoftBody& body, const Water& water) {
+  std::vector<int> fabrics(static_cast<std::size_t>(body.m_nodes.size()), 0);
+  if (water.fabricCount() == 1) return fabrics;
+  const std::size_t oldCount = std::min(water.size(), fabrics.size());
+  std::vector<std::size_t> origin(fabrics.size(), oldCount);
+  for (std::size_t i = 0; i < oldCount; ++i) origin[i] = i;
+  for (int k = 0; k < body.m_links.size(); ++k) {
+    const std::size_t ends[2] = {toSize(nodeIndex(body, body.m_links[k].m_n[0])),
+                                 toSize(nodeIndex(body, body.m_links[k].m_n[1]))};
+    for (int side = 0; side < 2; ++side) {
+      const std::size_t added = ends[side];
+      const std::size_t old = ends[1 - side];
+      if (added < oldCount || old >= oldCount) continue;
+      const bool isFirst = origin[added] == oldCount;
+      if (isFirst || distance2(body, old, added) < distance2(body, origin[added], added)) origin[added] = old;
+    }
+  }
+  for (std::size_t i = 0; i < fabrics.size(); ++i) {
+    const std::size_t from = origin[i] < oldCount ? origin[i] : nearestOldNode(body, oldCount, i);
+    fabrics[i] = static_cast<int>(water.fabric(from));
+  }
+  return fabrics;
+}
+
+// Of what saturated cloth weighs, how much is water.
+double waterShare(double capacityRatio) { return capacityRatio / (1 + capacityRatio); }
+
+double largestCapacityRatio(const Water& water) {
+  double largest = 0;
+  for (std::size_t k = 0; k < water.fabricCount(); ++k) largest = std::max(largest, water.capacityRatio(k));
+  return largest;
+}
+
 // Shares `amount` out in proportion to the weights, as far as there is room, and the rest by the room that is left;
 // what is more than all the room, in proportion to it.
 std::vector<double> shareOut(double amount, const std::vector<double>& weights, const std::vector<double>& rooms) {
@@ -110,19 +165,21 @@ std::vector<double> nodeAreas(const btSoftBody& body) {
   return areas;
 }
 
-std::vector<double> dryMasses(const btSoftBody& body, double arealDensity) {
+std::vector<double> dryMasses(const btSoftBody& body, const std::vector<double>& arealDensities,
+                              const std::vector<int>& fabricOfNode) {
   requireMasses(body);
   std::vector<double> masses(static_cast<std::size_t>(body.m_nodes.size()));
-  if (hasPinnedNodes(body)) masses = pinnedMasses(body, nodeAreas(body), arealDensity);
+  if (hasPinnedNodes(body)) masses = pinnedMasses(body, nodeAreas(body), arealDensities, fabricOfNode);
   for (std::size_t i = 0; i < masses.size(); ++i) {
     if (inverseMassOf(body, i) > 0) masses[i] = 1 / inverseMassOf(body, i);
   }
   return masses;
 }
 
-void redistributeWater(const btSoftBody& body, double arealDensity, Water& water) {
+void redistributeWater(const btSoftBody& body, const std::vector<double>& arealDensities, Water& water) {
   const std::size_t oldCount = std::min(water.size(), static_cast<std::size_t>(body.m_nodes.size()));
-  std::vector<double> dry = dryMasses(body, arealDensity);
+  std::vector<int> fabrics = fabricsAfterCut(body, water);
+  std::vector<double> dry = dryMasses(body, arealDensities, fabrics);
   std::vector<double> held(dry.size(), 0);
   const std::size_t newCount = dry.size() - oldCount;
 
@@ -138,14 +195,17 @@ void redistributeWater(const btSoftBody& body, double arealDensity, Water& water
 
   if (freed > 0) {
     // In proportion to mass and to how wet the surroundings are. Bullet gave each new node its wet mass: of that it may
-    // hold as much as leaves it saturated.
+    // hold as much as leaves it saturated, or, where water came from a fabric that holds more, as much as this.
     const std::vector<double> wet(dry.begin() + static_cast<std::ptrdiff_t>(oldCount), dry.end());
     std::vector<double> weights = neighbourWaterShare(body, water, newCount, freed / compensatedSum(wet));
-    std::vector<double> rooms = wet;
+    std::vector<double> rooms(newCount);
+    std::vector<double> mostRooms(newCount);
     for (std::size_t k = 0; k < newCount; ++k) {
       weights[k] *= wet[k];
-      rooms[k] *= water.capacityRatio() / (1 + water.capacityRatio());
+      rooms[k] = wet[k] * waterShare(water.capacityRatio(toSize(fabrics[oldCount + k])));
+      mostRooms[k] = wet[k] * waterShare(largestCapacityRatio(water));
     }
+    if (freed > compensatedSum(rooms)) rooms = std::move(mostRooms);
     const std::vector<double> shares = shareOut(freed, weights, rooms);
     for (std::size_t k = 0; k < newCount; ++k) {
       held[oldCount + k] = shares[k];
@@ -153,7 +213,7 @@ void redistributeWater(const btSoftBody& body, double arealDensity, Water& water
       dry[oldCount + k] = wet[k] - std::min(shares[k], rooms[k]);
     }
   }
-  water.replaceNodes(std::move(dry), std::move(held));
+  water.replaceNodes(std::move(dry), std::move(held), std::move(fabrics));
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -113,16 +113,31 @@ void Water::clearArrivals() {
   m_movedSinceCommit = m_leftSinceCommit = false;
 }
 
-void Water::reset(std::vector<double> dryMass, double capacityRatio) {
+void Water::reset(std::vector<double> dryMass, const std::vector<double>& capacityRatios,
+                  std::vector<int> fabricOfNode) {
   m_dryMass = std::move(dryMass);
+  m_fabric = std::move(fabricOfNode);
+  m_parts.clear();
+  for (const double ratio : capacityRatios) m_parts.push_back({ratio, 0});
+  sumDryMasses();
+  setCapacities();
   m_held.assign(m_dryMass.size(), 0);
   m_arrivals.assign(m_dryMass.size(), Arrival());
-  m_capacityRatio = capacityRatio;
-  m_totalDryMass = compensatedSum(m_dryMass);
   m_initial = m_absorbed = m_dripped = m_evaporated = m_runOff = CompensatedSum();
   m_newlyAbsorbed.fill(0);
   markMoved();
   m_movedSinceCommit = m_leftSinceCommit = false;
+}
+
+void Water::sumDryMasses() {
+  std::vector<CompensatedSum> sums(m_parts.size());
+  for (std::size_t i = 0; i < m_dryMass.size(); ++i) sums[fabric(i)].add(m_dryMass[i]);
+  for (std::size_t k = 0; k < sums.size(); ++k) m_parts[k].dryMass = sums[k].value();
+}
+
+void Water::setCapacities() {
+  m_capacity.resize(m_dryMass.size());
+  for (std::size_t i = 0; i < m_capacity.size(); ++i) m_capacity[i] = capacityRatio(fabric(i)) * m_dryMass[i];
 }
 
 void Water::setHeld(const std::vector<double>& held) {
@@ -135,12 +150,14 @@ void Water::setHeld(const std::vector<double>& held) {
   markMoved();
 }
 
-void Water::replaceNodes(std::vector<double> dryMass, std::vector<double> held) {
+void Water::replaceNodes(std::vector<double> dryMass, std::vector<double> held, std::vector<int> fabricOfNode) {
   // Rounding of the redistribution is booked, so that the ledger stays closed for as long as the cloth lives.
   m_initial.add(compensatedSum(held));
   m_initial.add(-compensatedSum(m_held));
   m_dryMass = std::move(dryMass);
-  m_totalDryMass = compensatedSum(m_dryMass);
+  m_fabric = std::move(fabricOfNode);
+  sumDryMasses();
+  setCapacities();
   m_held = std::move(held);
   m_arrivals.assign(m_held.size(), Arrival());
   ++m_revision;
@@ -155,7 +172,14 @@ void Water::transferState(StateArchive& archive) {
     archive.value(arrival.mass, arrival.momentum[0], arrival.momentum[1], arrival.momentum[2]);
     archive.value(arrival.runOff, arrival.shifted);
   });
-  archive.value(m_capacityRatio, m_totalDryMass, m_movedWithin);
+  const std::size_t fabrics = m_parts.size();
+  archive.each(m_fabric, [&](int& fabric) {
+    const int found = archive.place(fabric, static_cast<int>(fabrics), "a node's fabric");
+    if (archive.isRestoring()) fabric = found;
+  });
+  archive.each(m_parts, [&](Part& part) { archive.value(part.capacityRatio, part.dryMass); });
+  if (archive.isRestoring()) setCapacities();
+  archive.value(m_movedWithin);
   for (double& part : m_newlyAbsorbed) archive.value(part);
   for (auto* sum : {&m_initial, &m_absorbed, &m_dripped, &m_evaporated, &m_runOff}) sum->transferState(archive);
   archive.value(m_revision, m_movedSinceCommit, m_leftSinceCommit);

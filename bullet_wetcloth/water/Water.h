@@ -79,13 +79,17 @@ class WETCLOTH_EXPORT Water {
   /// Without water [kg].
   double dryMass(std::size_t node) const { return m_dryMass[node]; }
   /// What the node holds when saturated.
-  double capacity(std::size_t node) const { return m_capacityRatio * m_dryMass[node]; }
+  double capacity(std::size_t node) const { return m_capacity[node]; }
   /// held / capacity: 0 dry, 1 saturated, more when a source has overfilled the node.
   double saturation(std::size_t node) const { return m_held[node] / capacity(node); }
   /// Dry mass and water [kg].
   double totalMass(std::size_t node) const { return m_dryMass[node] + m_held[node]; }
-  /// Water held at saturation per dry mass [kg/kg].
-  double capacityRatio() const { return m_capacityRatio; }
+  /// Which of the cloth's fabrics the node is of: a place in WetCloth::fabrics().
+  std::size_t fabric(std::size_t node) const { return static_cast<std::size_t>(m_fabric[node]); }
+  /// How many fabrics there are.
+  std::size_t fabricCount() const { return m_parts.size(); }
+  /// Water that a fabric holds at saturation per dry mass [kg/kg].
+  double capacityRatio(std::size_t fabric) const { return m_parts[fabric].capacityRatio; }
 
   /// Where all water came from and went to.
   Ledger ledger() const;
@@ -96,7 +100,11 @@ class WETCLOTH_EXPORT Water {
   /// All water that was ever moved [kg]: into the cloth, out of it, between its nodes, or by hand. Never falls.
   double moved() const;
   /// Capacity of all nodes [kg].
-  double totalCapacity() const { return m_capacityRatio * m_totalDryMass; }
+  double totalCapacity() const {
+    double total = 0;
+    for (const Part& part : m_parts) total += part.capacityRatio * part.dryMass;
+    return total;
+  }
 
   // --- for effects, inside a step ---------------------------------------------------------------------------
 
@@ -154,18 +162,22 @@ class WETCLOTH_EXPORT Water {
   // --- for WetCloth -----------------------------------------------------------------------------------------
 
   /// Starts over with these dry masses [kg], all > 0, no water, and an empty ledger.
-  void reset(std::vector<double> dryMass, double capacityRatio);
+  /// @param capacityRatios  of each fabric [kg/kg], > 0, at least one
+  /// @param fabricOfNode    of each node, a place in `capacityRatios`
+  void reset(std::vector<double> dryMass, const std::vector<double>& capacityRatios, std::vector<int> fabricOfNode);
   /// Replaces the water by hand; booked under `initial`. Each value finite and >= 0.
   void setHeld(const std::vector<double>& held);
   /// New dry mass of one node, its water unchanged.
   void setDryMass(std::size_t node, double mass) {
-    m_totalDryMass += mass - m_dryMass[node];
+    Part& part = m_parts[fabric(node)];
+    part.dryMass += mass - m_dryMass[node];
     m_dryMass[node] = mass;
+    m_capacity[node] = part.capacityRatio * mass;
     ++m_revision;
   }
   /// The body's nodes changed: new dry masses and new water [kg] of each, whose sum must be what is held now, to
-  /// rounding.
-  void replaceNodes(std::vector<double> dryMass, std::vector<double> held);
+  /// rounding, and which fabric each is of.
+  void replaceNodes(std::vector<double> dryMass, std::vector<double> held, std::vector<int> fabricOfNode);
   /// Names what goes on from step to step: see StateArchive.
   void transferState(StateArchive& archive);
 
@@ -174,6 +186,14 @@ class WETCLOTH_EXPORT Water {
   // next.
   static constexpr std::size_t kLanes = 8;
 
+  // All nodes of one fabric.
+  struct Part {
+    double capacityRatio = 0;  // [kg/kg]
+    double dryMass = 0;        // [kg]
+  };
+
+  void sumDryMasses();
+  void setCapacities();
   double take(std::size_t node, double mass, CompensatedSum& account);
   void markMoved() {
     m_movedSinceCommit = true;
@@ -183,8 +203,9 @@ class WETCLOTH_EXPORT Water {
   std::vector<double> m_held;
   std::vector<double> m_dryMass;
   std::vector<Arrival> m_arrivals;
-  double m_capacityRatio = 0;
-  double m_totalDryMass = 0;
+  std::vector<double> m_capacity;
+  std::vector<int> m_fabric;
+  std::vector<Part> m_parts;
   double m_movedWithin = 0;  // between nodes, and by hand
   CompensatedSum m_initial;
   CompensatedSum m_absorbed;                        // up to the last commit
