@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,20 @@ struct TextureMap {
   std::vector<Triangle> triangles;  ///< indices of places, one triangle for each of the cloth's
 };
 
+/// What a fabric looks like. Colours are linear in the saturation between dry and wet.
+struct FabricLook {
+  Rgb dryColour{};
+  Rgb wetColour{};  ///< at saturation 1
+  float dryRoughness = 1;
+  float wetRoughness = 1;
+};
+
+/// Triangles of one fabric, which follow each other.
+struct FabricPart {
+  FabricLook look;
+  std::size_t triangles = 0;  ///< how many
+};
+
 /// What of a cloth stays the same during a run.
 struct ClothShape {
   std::string name;
@@ -28,10 +43,7 @@ struct ClothShape {
   std::vector<Triangle> triangles;        ///< indices of nodes
   std::vector<std::array<int, 2>> links;  ///< indices of nodes
   std::vector<int> pinned;                ///< nodes
-  Rgb dryColour{};
-  Rgb wetColour{};  ///< at saturation 1; linear in the saturation between
-  float dryRoughness = 1;
-  float wetRoughness = 1;
+  std::vector<FabricPart> parts;          ///< of the triangles, in their order
 };
 
 /// A cloth at one moment: one value per node.

@@ -85,12 +85,17 @@ class Packer {
   Range axis(std::size_t i) const { return {m_box.low[i], m_box.high[i]}; }
 
   void putShape(const ClothShape& shape) {
+    nlohmann::json parts = nlohmann::json::array();
+    for (const auto& [look, triangles] : shape.parts) {
+      parts.push_back({{"triangles", triangles},
+                       {"dryColour", look.dryColour},
+                       {"wetColour", look.wetColour},
+                       {"roughness", {look.dryRoughness, look.wetRoughness}}});
+    }
     m_head["cloths"].push_back({{"name", shape.name},
                                 {"nodes", shape.texture.size()},
                                 {"triangles", shape.triangles.size()},
-                                {"dryColour", shape.dryColour},
-                                {"wetColour", shape.wetColour},
-                                {"roughness", {shape.dryRoughness, shape.wetRoughness}}});
+                                {"parts", parts}});
     putAll(shape.texture);
     putAll(shape.triangles);
   }

@@ -31,11 +31,12 @@ std::string plyBytes(const FrameSequence& sequence, std::size_t cloth, const Fra
   const ClothShape& shape = sequence.cloths[cloth];
   const ClothState& state = frame.cloths[cloth];
   const std::vector<Vector3> normals = vertexNormals(state.positions, shape.triangles);
+  const std::vector<Rgb> colours = clothColours(shape, state.saturation);
   std::string bytes = header(sequence, shape, frame.time, state.positions.size());
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     for (const float x : state.positions[i]) putFloat(bytes, x);
     for (const float x : normals[i]) putFloat(bytes, x);
-    for (const std::uint8_t c : encodedColour(clothColour(shape, state.saturation[i]))) putByte(bytes, c);
+    for (const std::uint8_t c : encodedColour(colours[i])) putByte(bytes, c);
     putFloat(bytes, state.saturation[i]);
   }
   for (const Triangle& triangle : shape.triangles) {

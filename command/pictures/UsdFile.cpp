@@ -39,12 +39,6 @@ std::vector<int> cornersOf(const std::vector<Triangle>& triangles) {
   return corners;
 }
 
-std::vector<Rgb> coloursOf(const ClothShape& shape, const ClothState& state) {
-  std::vector<Rgb> colours;
-  for (const float saturation : state.saturation) colours.push_back(clothColour(shape, saturation));
-  return colours;
-}
-
 std::vector<Vector3> boxOf(const std::vector<Vector3>& points) {
   Bounds bounds;
   for (const Vector3& point : points) bounds.add(point);
@@ -137,7 +131,7 @@ class UsdWriter {
                     [&](const ClothState& state) { return vertexNormals(state.positions, shape.triangles); });
     sampledByVertex("float[] primvars:wetness", index, [](const ClothState& state) { return state.saturation; });
     sampledByVertex("color3f[] primvars:displayColor", index,
-                    [&](const ClothState& state) { return coloursOf(shape, state); });
+                    [&](const ClothState& state) { return clothColours(shape, state.saturation); });
     texture(shape);
     m_out << "    }\n";
   }

@@ -59,8 +59,8 @@ std::string bytesOf(const std::vector<float>& values) {
 
 std::string colourArray(const ClothShape& shape, const ClothState& state) {
   std::string bytes;
-  for (const float saturation : state.saturation) {
-    for (const std::uint8_t c : encodedColour(clothColour(shape, saturation))) putByte(bytes, c);
+  for (const Rgb& colour : clothColours(shape, state.saturation)) {
+    for (const std::uint8_t c : encodedColour(colour)) putByte(bytes, c);
   }
   return bytes;
 }

@@ -44,6 +44,27 @@ std::optional<pictures::TextureMap> ownTextureOf(const ClothScene& scene) {
   return pictures::TextureMap{mesh->texture, mesh->textureTriangles};
 }
 
+pictures::FabricLook lookOf(const wetcloth::Fabric& fabric) {
+  const auto& dry = fabric.dryColour;
+  const wetcloth::Colour dryColour{dry[0], dry[1], dry[2]};
+  return {plain(dryColour), plain(wetcloth::wetColour(dryColour, 1)), static_cast<float>(fabric.dryRoughness),
+          static_cast<float>(wetcloth::wetRoughness(fabric.dryRoughness, 1))};
+}
+
+/// Of a garment as many as there are panels in a row of the same fabric.
+std::vector<pictures::FabricPart> partsOf(const ClothScene& scene, std::size_t triangles) {
+  if (!scene.garment) return {{lookOf(scene.fabric), triangles}};
+  std::vector<pictures::FabricPart> parts;
+  const std::vector<int>& fabrics = scene.garment->fabricOfTriangle;
+  for (std::size_t i = 0; i < fabrics.size(); ++i) {
+    if (i == 0 || fabrics[i] != fabrics[i - 1]) {
+      parts.push_back({lookOf(scene.garment->fabrics[wetcloth::toSize(fabrics[i])]), 0});
+    }
+    ++parts.back().triangles;
+  }
+  return parts;
+}
+
 ClothShape shapeOf(const ClothScene& scene, const btSoftBody& body) {
   ClothShape shape;
   shape.name = scene.name;
@@ -58,12 +79,7 @@ ClothShape shapeOf(const ClothScene& scene, const btSoftBody& body) {
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     if (body.m_nodes[i].m_im == 0) shape.pinned.push_back(i);
   }
-  const auto& dry = scene.fabric.dryColour;
-  const wetcloth::Colour dryColour{dry[0], dry[1], dry[2]};
-  shape.dryColour = plain(dryColour);
-  shape.wetColour = plain(wetcloth::wetColour(dryColour, 1));
-  shape.dryRoughness = static_cast<float>(scene.fabric.dryRoughness);
-  shape.wetRoughness = static_cast<float>(wetcloth::wetRoughness(scene.fabric.dryRoughness, 1));
+  shape.parts = partsOf(scene, shape.triangles.size());
   return shape;
 }
 

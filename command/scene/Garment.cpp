@@ -95,6 +95,7 @@ class Sewing {
       m_sewn.mesh.triangles.push_back(corners);
       m_sewn.mesh.restEdges.push_back({distance(panel, b, c), distance(panel, c, a), distance(panel, a, b)});
       m_sewn.mesh.arealDensities.push_back(m_panels[p].arealDensity);
+      m_sewn.fabricOfTriangle.push_back(m_panels[p].fabric);
     }
   }
 

@@ -35,6 +35,7 @@ using Stitch = std::pair<PanelNode, PanelNode>;
 struct SewnMesh {
   TriangleMesh mesh;              ///< with `restEdges`, those of the panels; groups are the panels
   std::vector<int> fabricOfNode;  ///< on a seam that of the panel that was named first
+  std::vector<int> fabricOfTriangle;
 };
 
 /// Nodes that are stitched together become one in the middle between them, so triangles at a seam are longer than at

@@ -140,6 +140,7 @@ void readPattern(const JsonCursor& pattern, const JsonCursor* how, ClothScene& c
     SewnMesh sewnMesh = sewn(panels, stitches);
     sewnMesh.mesh.flexionStiffness = flexion;
     garment.fabricOfNode = std::move(sewnMesh.fabricOfNode);
+    garment.fabricOfTriangle = std::move(sewnMesh.fabricOfTriangle);
     cloth.shape = std::move(sewnMesh.mesh);
   } catch (const std::invalid_argument& error) {
     pattern.complain(error.what());

@@ -27,6 +27,17 @@ void choose(SolverKind solver, std::optional<wetcloth::ClothSolver::Parameters>&
   }
 }
 
+void ClothScene::makeOf(const wetcloth::Fabric& other) {
+  fabric = other;
+  if (auto* patch = std::get_if<wetcloth::ClothPatch>(&shape)) patch->arealDensity = fabric.arealDensity;
+  if (!garment) return;
+  garment->fabrics.front() = fabric;
+  auto& densities = std::get<TriangleMesh>(shape).arealDensities;
+  for (std::size_t i = 0; i < densities.size(); ++i) {
+    if (garment->fabricOfTriangle[i] == 0) densities[i] = fabric.arealDensity;
+  }
+}
+
 bool ClothScene::hasEffect(const std::string& key) const {
   return std::any_of(effects.begin(), effects.end(), [&](const EffectScene& effect) { return effect.key == key; });
 }

@@ -80,6 +80,7 @@ struct GarmentScene {
   double settling = 1;                    ///< after that, still before the beginning [s]
   std::vector<wetcloth::Fabric> fabrics;  ///< the first is the cloth's own
   std::vector<int> fabricOfNode;          ///< of each node the number in `fabrics`
+  std::vector<int> fabricOfTriangle;      ///< the same of each triangle
 };
 
 struct ClothScene {
@@ -104,6 +105,8 @@ struct ClothScene {
   SpringScene springs;
   std::vector<EffectScene> effects;  ///< in the order in which they are added
 
+  /// Of another fabric; panels that have their own keep it.
+  void makeOf(const wetcloth::Fabric& other);
   bool hasEffect(const std::string& key) const;
   int nodeCount() const;
   std::vector<btVector3> nodePositions() const;  ///< at the beginning [m]

@@ -53,11 +53,16 @@ SceneWorld::SceneWorld(const Scene& scene, Kind kind)
   m_wetWorld = &m_world.wet();
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
     const std::string pointer = "/cloths/" + std::to_string(i);
-    atPointer(scene, pointer, [&] { m_cloths.push_back(&m_wetWorld->add(*m_bodies[i], scene.cloths[i].fabric)); });
+    atPointer(scene, pointer, [&] { m_cloths.push_back(&wet(scene.cloths[i], *m_bodies[i])); });
     m_cloths.back()->setPace(scene.cloths[i].pace);
     addEffects(i, *m_cloths.back());
     m_cloths.back()->setSaturation(scene.cloths[i].initialSaturation);
   }
+}
+
+wetcloth::WetCloth& SceneWorld::wet(const ClothScene& cloth, btSoftBody& body) const {
+  if (!cloth.garment) return m_wetWorld->add(body, cloth.fabric);
+  return m_wetWorld->add(body, cloth.garment->fabrics, cloth.garment->fabricOfNode);
 }
 
 void SceneWorld::addCloth(std::size_t index, Kind kind) {

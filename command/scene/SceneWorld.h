@@ -67,6 +67,7 @@ class SceneWorld {
 
  private:
   void addCloth(std::size_t index, Kind kind);
+  wetcloth::WetCloth& wet(const ClothScene& cloth, btSoftBody& body) const;
   void settle();
   void addFaceTree(btSoftBody& body) const;
   double substep() const { return m_scene.step / m_scene.substeps; }

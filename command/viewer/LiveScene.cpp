@@ -148,11 +148,10 @@ command::Scene LiveScene::equippedScene() {
   command::choose(solver(), scene.clothSolver);
   if (m_levers.fabric.empty()) return scene;
   for (command::ClothScene& cloth : scene.cloths) {
-    const wetcloth::Fabric own = cloth.fabric;
-    cloth.fabric = wetcloth::Fabric::byName(m_levers.fabric);
-    cloth.fabric.dryColour = own.dryColour;
-    cloth.fabric.dryRoughness = own.dryRoughness;
-    if (auto* patch = std::get_if<wetcloth::ClothPatch>(&cloth.shape)) patch->arealDensity = cloth.fabric.arealDensity;
+    wetcloth::Fabric fabric = wetcloth::Fabric::byName(m_levers.fabric);
+    fabric.dryColour = cloth.fabric.dryColour;
+    fabric.dryRoughness = cloth.fabric.dryRoughness;
+    cloth.makeOf(fabric);
   }
   return scene;
 }

@@ -5,6 +5,7 @@
 
 #include "command/pictures/FrameSequence.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace pictures {
@@ -17,6 +18,8 @@ class ClothMesh {
   /// @param values  one per node: what is coloured by, [0, 1]; empty: nothing
   void update(const ClothState& state, const std::vector<float>& values);
   void draw() const { m_vertices.draw(); }
+  /// Some of its triangles.
+  void draw(std::size_t first, std::size_t count) const { m_vertices.draw(first, count); }
 
  private:
   void findNormals(const std::vector<Vector3>& positions);

@@ -8,6 +8,7 @@
 #include "command/pictures/FrameSequence.h"
 #include "command/pictures/Rods.h"
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -26,6 +27,8 @@ class ClothOnRods {
   float side() const { return m_side; }
   const std::vector<Rod>& rods() const { return m_rods; }
   void drawCloth() const { m_mesh.draw(); }
+  /// Some of its triangles.
+  void drawCloth(std::size_t first, std::size_t count) const { m_mesh.draw(first, count); }
   void drawBars() const;
 
  private:

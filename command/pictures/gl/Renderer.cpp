@@ -297,10 +297,14 @@ void Renderer::Parts::drawCloths() const {
     constexpr float threads = 128;  // real ones would be finer than pixels
     program.set("threadsPerMetre", threads / hanging->side());
     program.set("threadsPerLine", threads / 16);
-    program.set("dryColour", shape.dryColour);
-    program.set("wetColour", shape.wetColour);
-    program.set("roughness", shape.dryRoughness, shape.wetRoughness);
-    hanging->drawCloth();
+    std::size_t first = 0;
+    for (const auto& [look, triangles] : shape.parts) {
+      program.set("dryColour", look.dryColour);
+      program.set("wetColour", look.wetColour);
+      program.set("roughness", look.dryRoughness, look.wetRoughness);
+      hanging->drawCloth(first, triangles);
+      first += triangles;
+    }
   }
 }
 

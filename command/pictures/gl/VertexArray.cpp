@@ -49,9 +49,13 @@ void VertexArray::setTriangles(const std::vector<Triangle>& triangles) {
   glBindVertexArray(0);
 }
 
-void VertexArray::draw() const {
+void VertexArray::draw() const { draw(0, static_cast<std::size_t>(m_indexCount) / 3); }
+
+void VertexArray::draw(std::size_t first, std::size_t count) const {
   glBindVertexArray(m_array);
-  glDrawElements(GL_TRIANGLES, m_indexCount, GL_UNSIGNED_INT, nullptr);
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL takes offsets as pointers
+  const auto* const start = reinterpret_cast<const void*>(first * sizeof(Triangle));
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT, start);
 }
 
 void VertexArray::drawInstances(std::size_t count) const {

@@ -27,6 +27,8 @@ class VertexArray {
   void setTriangles(const std::vector<Triangle>& triangles);
 
   void draw() const;
+  /// Some of its triangles.
+  void draw(std::size_t first, std::size_t count) const;
   void drawInstances(std::size_t count) const;
   /// The first `count` vertices, three for each triangle.
   void drawVertices(std::size_t count) const;

@@ -26,9 +26,10 @@ class Mesh {
     this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.buffers[buffer]);
     this.gl.bufferData(this.gl.ARRAY_BUFFER, data, this.gl.DYNAMIC_DRAW);
   }
-  draw() {
+  /** Some of its triangles, or all. */
+  draw(first = 0, triangles = this.count / 3) {
     this.gl.bindVertexArray(this.array);
-    this.gl.drawElements(this.gl.TRIANGLES, this.count, this.gl.UNSIGNED_INT, 0);
+    this.gl.drawElements(this.gl.TRIANGLES, 3 * triangles, this.gl.UNSIGNED_INT, 12 * first);
   }
   /** @param {Float32Array} places  x, y, z and size of each copy */
   drawAt(places) {

@@ -298,10 +298,13 @@ class Renderer {
   drawCloths() {
     const program = this.colouring === 'fabric' ? this.programs.cloth : this.programs.measured;
     for (const cloth of this.cloths) {
-      const {dryColour, wetColour, roughness} = cloth.track.facts;
-      program.use({
-        threadsPerMetre: threads / cloth.side, threadsPerLine: threads / 16, dryColour, wetColour, roughness});
-      cloth.mesh.draw();
+      let first = 0;
+      for (const {triangles, dryColour, wetColour, roughness} of cloth.track.facts.parts) {
+        program.use({
+          threadsPerMetre: threads / cloth.side, threadsPerLine: threads / 16, dryColour, wetColour, roughness});
+        cloth.mesh.draw(first, triangles);
+        first += triangles;
+      }
     }
   }
 

@@ -137,6 +137,46 @@ TEST(Garment, IsDrawnInOverWhatWearsIt) {
   EXPECT_LT(largestStretch(*world.bodies()[0]), 1.3);
 }
 
+// Each panel brings 0.4 x 0.4 m of its own fabric, and nodes on seams are of the front.
+TEST(Garment, PanelsHaveTheirOwnFabrics) {
+  Json json = sack();
+  json["cloths"][0]["garment"]["fabrics"] = {
+      {{"panel", "back"},
+       {"fabric", {{"preset", "coarse_wool"}, {"areal_density_kg_m2", 0.4}, {"colour", {0.5, 0.1, 0.1}}}}}};
+  const TemporaryDirectory directory;
+  const command::Scene scene = sceneOf(json, directory);
+  const command::SceneWorld world(scene);
+  const wetcloth::WetCloth& cloth = *world.cloths()[0];
+  const auto& back = std::get<command::TriangleMesh>(scene.cloths[0].shape).groups.at("back");
+  ASSERT_EQ(cloth.fabrics().size(), 2U);
+  const double cotton = wetcloth::Fabric::cotton().capacity, wool = wetcloth::Fabric::coarseWool().capacity;
+  const auto& front = std::get<command::TriangleMesh>(scene.cloths[0].shape).groups.at("front");
+  for (int node = 0; node < scene.cloths[0].nodeCount(); ++node) {
+    const bool isFront = std::binary_search(front.begin(), front.end(), node);
+    EXPECT_TRUE(isFront || std::binary_search(back.begin(), back.end(), node));
+    EXPECT_NEAR(cloth.capacity(node) / cloth.dryMass(node), isFront ? cotton : wool, 1e-6) << node;
+  }
+  double mass = 0;
+  for (int node = 0; node < scene.cloths[0].nodeCount(); ++node) mass += cloth.dryMass(node);
+  EXPECT_NEAR(mass, 0.16 * (scene.cloths[0].fabric.arealDensity + 0.4), 1e-6);
+}
+
+TEST(Garment, OfAnotherFabricKeepsThatOfItsPanels) {
+  Json json = sack();
+  json["cloths"][0]["garment"]["fabrics"] = {{{"panel", "back"}, {"fabric", "coarse_wool"}}};
+  const TemporaryDirectory directory;
+  command::Scene scene = sceneOf(json, directory);
+  wetcloth::Fabric heavy = wetcloth::Fabric::cotton();
+  heavy.arealDensity = 1;
+  scene.cloths[0].makeOf(heavy);
+  btSoftBodyWorldInfo info;
+  const auto body = command::makeClothBody(scene.cloths[0], info);
+  double mass = 0;
+  for (int i = 0; i < body->m_nodes.size(); ++i) mass += 1 / static_cast<double>(body->m_nodes[i].m_im);
+  EXPECT_NEAR(mass, 0.16 * (1 + wetcloth::Fabric::coarseWool().arealDensity), 1e-6);
+  EXPECT_EQ(scene.cloths[0].garment->fabrics[0].arealDensity, 1);
+}
+
 TEST(Garment, WaterGoesAcrossASeam) {
   Json json = sack();
   json["gravity_m_s2"] = {0, 0, 0};
