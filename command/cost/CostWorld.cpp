@@ -44,7 +44,7 @@ class CostWorld::Stopwatch : public wetcloth::Effect {
 
 CostWorld CostWorld::idle(const Scene& scene) {
   Scene bare = leaveOut(scene, [](const EffectScene&) { return true; });
-  for (ClothScene& cloth : bare.cloths) cloth.initialSaturation = 0;
+  for (ClothScene& cloth : bare.cloths) cloth.makeDry();
   leaveOutGuard(bare);
   return CostWorld(bare, SceneWorld::Kind::wet);
 }

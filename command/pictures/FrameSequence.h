@@ -46,12 +46,13 @@ struct ClothShape {
   std::vector<FabricPart> parts;          ///< of the triangles, in their order
 };
 
-/// A cloth at one moment: one value per node.
+/// A cloth at one moment: one value per node, but for `released`.
 struct ClothState {
   std::vector<Vector3> positions;  ///< [m]
   std::vector<float> saturation;   ///< water over capacity, [0, 1]
   std::vector<float> stretch;      ///< largest of its links' length over length at rest, 1 unstretched
   std::vector<float> speed;        ///< [m/s]
+  std::vector<int> released;       ///< nodes that were pinned at first, sorted
 };
 
 /// Water that has left a cloth and falls.
@@ -71,7 +72,8 @@ struct Frame {
   double time = 0;  ///< [s]
   std::vector<ClothState> cloths;
   std::vector<Drop> drops;
-  std::vector<Pose> poses;  ///< of each solid; empty: all are as the scenery has them
+  std::vector<Pose> poses;     ///< of each solid; empty: all are as the scenery has them
+  std::vector<float> wetness;  ///< of each solid, [0, 1]; empty: all are dry
 };
 
 /// A plane that cloth can lie on: points p with normal . p = offset.
@@ -85,6 +87,7 @@ struct Solid {
   std::vector<Vector3> vertices;  ///< [m]
   std::vector<Vector3> normals;   ///< one per vertex, of length 1
   std::vector<Triangle> triangles;
+  Rgb colour{0.50F, 0.42F, 0.33F};  ///< dry; of stone
 };
 
 /// What the cloths of a scene are among.

@@ -154,10 +154,17 @@ class Packer {
   void putSolids() {
     m_head["solids"] = nlohmann::json::array();
     for (const Solid& solid : m_sequence.scenery.solids) {
-      m_head["solids"].push_back({{"vertices", solid.vertices.size()}, {"triangles", solid.triangles.size()}});
+      m_head["solids"].push_back(
+          {{"vertices", solid.vertices.size()}, {"triangles", solid.triangles.size()}, {"colour", solid.colour}});
       putAll(solid.vertices);
       putAll(solid.normals);
       putAll(solid.triangles);
+    }
+    m_head["wetness"] = nlohmann::json::array();
+    for (const Frame& frame : m_sequence.frames) {
+      std::vector<double> wetness;
+      for (const float wet : frame.wetness) wetness.push_back(std::round(100 * static_cast<double>(wet)) / 100);
+      m_head["wetness"].push_back(wetness);
     }
     m_head["posed"] = !m_sequence.frames.front().poses.empty();
     for (const Frame& frame : m_sequence.frames) {

@@ -72,7 +72,9 @@ Rods::Rods(const ClothShape& shape, const ClothState& rest) : m_ends(endsOfLine(
 
 std::vector<Rod> Rods::at(const ClothState& state, const std::vector<Ground>& grounds) const {
   std::vector<Rod> rods;
+  const auto isFree = [&](int node) { return std::binary_search(state.released.begin(), state.released.end(), node); };
   for (const auto& [first, last] : m_ends) {
+    if (isFree(first) || isFree(last)) continue;
     const Vector3 across = state.positions[index(last)] - state.positions[index(first)];
     Rod rod{state.positions[index(first)] - across * 0.05F, state.positions[index(last)] + across * 0.05F,
             0.01F * length(across)};

@@ -34,6 +34,8 @@ std::vector<pictures::Texture> textureOf(const wetcloth::ClothPatch& patch) {
   return texture;
 }
 
+constexpr pictures::Rgb skinColour{0.50F, 0.30F, 0.20F};
+
 std::vector<pictures::Texture> textureOf(const TriangleMesh& mesh) {
   return mesh.sheet.empty() ? sheetOf(mesh.vertices) : mesh.sheet;
 }
@@ -126,16 +128,35 @@ std::vector<pictures::Pose> posesOf(const Scene& scene, double time) {
   return poses;
 }
 
+bool isSkin(const Scene& scene, std::size_t collider) {
+  return std::any_of(scene.figures.begin(), scene.figures.end(), [&](const FigureScene& figure) {
+    return collider >= figure.first && collider < figure.first + figure.count;
+  });
+}
+
+std::vector<float> wetnessOf(const SceneWorld& world) {
+  constexpr double wetAllOver = 0.05;  // [kg/m^2]: a film as thin as 0.05 mm has no dry places
+  const std::vector<Collider>& colliders = world.scene().colliders;
+  std::vector<float> wetness;
+  for (std::size_t i = 0; i < colliders.size(); ++i) {
+    if (colliders[i].as<Plane>() != nullptr) continue;
+    const double film = world.filmOn(i);
+    wetness.push_back(film > 0 ? static_cast<float>(std::min(1.0, film / (wetAllOver * areaOf(colliders[i])))) : 0);
+  }
+  return wetness;
+}
+
 pictures::Scenery sceneryOf(const Scene& scene) {
   pictures::Scenery scenery;
   scenery.title = scene.name;
   scenery.up = plain(scene.up());
-  for (const Collider& collider : scene.colliders) {
-    if (const auto* plane = collider.as<Plane>()) {
+  for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
+    if (const auto* plane = scene.colliders[i].as<Plane>()) {
       scenery.grounds.push_back({plain(plane->normal), static_cast<float>(plane->offset)});
-    } else {
-      scenery.solids.push_back(solidOf(collider));
+      continue;
     }
+    scenery.solids.push_back(solidOf(scene.colliders[i]));
+    if (isSkin(scene, i)) scenery.solids.back().colour = skinColour;
   }
   if (scene.water) scenery.waterLevel = static_cast<float>(scene.water->level);
   scenery.viewDirection = plain(scene.camera.direction);
@@ -151,6 +172,13 @@ void takeNodes(const btSoftBody& body, ClothState& state) {
     const btSoftBody::Node& node = body.m_nodes[static_cast<int>(i)];
     state.positions[i] = plain(node.m_x);
     state.speed[i] = static_cast<float>(node.m_v.length());
+  }
+}
+
+void takeReleased(const btSoftBody& body, const ClothShape& shape, ClothState& state) {
+  state.released.clear();
+  for (const int node : shape.pinned) {
+    if (body.m_nodes[node].m_im > 0) state.released.push_back(node);
   }
 }
 
@@ -179,6 +207,7 @@ FrameSampler::FrameSampler(const SceneWorld& world) : m_scenery(sceneryOf(world.
 void FrameSampler::take(const SceneWorld& world, double time, pictures::Frame& frame) const {
   frame.time = time;
   frame.poses = posesOf(world.scene(), time);
+  frame.wetness = wetnessOf(world);
   frame.drops.clear();
   for (const FallingDrop& drop : world.drops().at(time)) {
     frame.drops.push_back({plain(drop.position), static_cast<float>(drop.radius)});
@@ -188,6 +217,7 @@ void FrameSampler::take(const SceneWorld& world, double time, pictures::Frame& f
     ClothState& state = frame.cloths[i];
     takeNodes(*world.bodies()[i], state);
     takeStretch(*world.bodies()[i], m_cloths[i], m_restLengths[i], state);
+    takeReleased(*world.bodies()[i], m_cloths[i], state);
     state.saturation.assign(state.positions.size(), 0);
     if (world.cloths().empty()) continue;  // plain Bullet knows no water
     for (std::size_t node = 0; node < state.saturation.size(); ++node) {

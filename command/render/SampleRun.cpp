@@ -46,6 +46,7 @@ ClothState mix(const ClothState& a, const ClothState& b, double share) {
   mixed.saturation = mix(a.saturation, b.saturation, share);
   mixed.stretch = mix(a.stretch, b.stretch, share);
   mixed.speed = mix(a.speed, b.speed, share);
+  mixed.released = b.released;
   return mixed;
 }
 
@@ -73,6 +74,7 @@ Sample mix(const Sample& a, const Sample& b, double share) {
   for (std::size_t i = 0; i < a.frame.poses.size(); ++i) {
     mixed.frame.poses.push_back(mix(a.frame.poses[i], b.frame.poses[i], share));
   }
+  mixed.frame.wetness = mix(a.frame.wetness, b.frame.wetness, share);
   mixed.frame.drops = b.frame.drops;
   for (std::size_t i = 0; i < a.numbers.size(); ++i) {
     mixed.numbers.push_back(a.numbers[i] + share * (b.numbers[i] - a.numbers[i]));

@@ -184,4 +184,15 @@ ColliderSurface surfaceOf(const Collider& collider) {
   return surface;
 }
 
+double areaOf(const Collider& collider) {
+  double area = 0;
+  for (const ColliderSurface::Piece& piece : surfaceOf(collider).pieces) {
+    for (std::size_t k = 2; k < piece.corners.size(); ++k) {
+      const btVector3 u = piece.corners[k - 1] - piece.corners[0], v = piece.corners[k] - piece.corners[0];
+      area += static_cast<double>(u.cross(v).length()) / 2;
+    }
+  }
+  return area;
+}
+
 }  // namespace command

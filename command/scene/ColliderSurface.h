@@ -18,5 +18,7 @@ struct ColliderSurface {
 
 /// As it is at rest. A plane has none.
 ColliderSurface surfaceOf(const Collider& collider);
+/// Of that surface [m^2].
+double areaOf(const Collider& collider);
 
 }  // namespace command

@@ -7,7 +7,7 @@ namespace command {
 
 Scene dryScene(const Scene& scene) {
   Scene dry = leaveOut(scene, [](const EffectScene& effect) { return effect.water != WaterRole::none; });
-  for (ClothScene& cloth : dry.cloths) cloth.initialSaturation = 0;
+  for (ClothScene& cloth : dry.cloths) cloth.makeDry();
   return dry;
 }
 

@@ -38,6 +38,11 @@ void ClothScene::makeOf(const wetcloth::Fabric& other) {
   }
 }
 
+void ClothScene::makeDry() {
+  initialSaturation = 0;
+  wetRegions.clear();
+}
+
 bool ClothScene::hasEffect(const std::string& key) const {
   return std::any_of(effects.begin(), effects.end(), [&](const EffectScene& effect) { return effect.key == key; });
 }

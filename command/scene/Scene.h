@@ -4,12 +4,14 @@
 #include "command/cli/NamedValues.h"
 #include "command/cli/Precision.h"
 #include "command/scene/Collider.h"
+#include "command/scene/Region.h"
 #include "command/scene/TriangleMesh.h"
 
 #include "bullet_wetcloth/bullet_wetcloth.h"
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,6 +51,7 @@ struct TwistScene {
   double turnsPerSecond = 1;
   double turns = 1;     ///< in all
   double approach = 0;  ///< towards the opposite edge in all these turns [m], in proportion to them
+  double letGo = std::numeric_limits<double>::infinity();  ///< when its nodes are pinned no more [s]
 };
 
 /// A patch's or mesh's pinned nodes, moved together: where to at which time, in straight lines between.
@@ -83,6 +86,12 @@ struct GarmentScene {
   std::vector<int> fabricOfTriangle;      ///< the same of each triangle
 };
 
+/// What of a cloth, by where its nodes are at the beginning, is not as wet as the rest.
+struct WetRegion {
+  Region region;
+  double saturation;
+};
+
 struct ClothScene {
   std::string name;
   std::variant<wetcloth::ClothPatch, TriangleMesh> shape;
@@ -90,6 +99,7 @@ struct ClothScene {
   std::vector<int> pinnedNodes;  ///< of a mesh; a patch knows its own
   wetcloth::Fabric fabric;
   double initialSaturation = 0;
+  std::vector<WetRegion> wetRegions;  ///< where they overlap the last one counts
   wetcloth::WaterPace pace;
   double friction = 0.5;          ///< btSoftBody::Config::kDF, [0, 1]
   double damping = 0;             ///< btSoftBody::Config::kDP, [0, 1]
@@ -107,6 +117,8 @@ struct ClothScene {
 
   /// Of another fabric; panels that have their own keep it.
   void makeOf(const wetcloth::Fabric& other);
+  /// No water at the beginning.
+  void makeDry();
   bool hasEffect(const std::string& key) const;
   int nodeCount() const;
   std::vector<btVector3> nodePositions() const;  ///< at the beginning [m]

@@ -31,6 +31,7 @@ inline const KeyTable cloth{"cloth",
                              "fabric",
                              "pins",
                              "initial_saturation",
+                             "wet_regions",
                              "water_pace",
                              "friction",
                              "damping",
@@ -59,7 +60,9 @@ inline const KeyTable obj{"obj", {"file", "scale", "rotation_deg", "translation_
 
 inline const KeyTable pins{"pins", {"corners", "edges", "nodes", "box", "sphere", "group"}};
 
-inline const KeyTable twist{"twist", {"edge", "turns_per_s", "turns", "approach_m"}};
+inline const KeyTable wetRegion{"wetRegion", {"box", "sphere", "saturation"}};
+
+inline const KeyTable twist{"twist", {"edge", "turns_per_s", "turns", "approach_m", "let_go_s"}};
 
 inline const KeyTable motion{"motion", {"times_s", "offsets_m"}};
 
@@ -109,9 +112,10 @@ inline const KeyTable camera{"camera", {"direction", "field_of_view_deg"}};
 
 /// But for those of effects, which stand in the catalogue.
 inline const std::vector<const KeyTable*> all{
-    &scene,       &solver, &guard, &waterPace, &obj,     &cloth,   &patch,  &fabric, &pins,     &exposureBelow, &gust,
-    &twist,       &motion, &water, &collider,  &plane,   &box,     &sphere, &camera, &capsule,  &cylinder,      &hull,
-    &rigidMotion, &figure, &parts, &part,      &garment, &pattern, &panel,  &seam,   &seamSide, &panelFabric};
+    &scene,         &solver,  &guard,    &waterPace, &obj,         &cloth,    &patch, &fabric, &pins,
+    &exposureBelow, &gust,    &twist,    &motion,    &water,       &collider, &plane, &box,    &sphere,
+    &camera,        &capsule, &cylinder, &hull,      &rigidMotion, &figure,   &parts, &part,   &garment,
+    &pattern,       &panel,   &seam,     &seamSide,  &panelFabric, &wetRegion};
 
 }  // namespace keys
 }  // namespace command

@@ -68,30 +68,30 @@ void readMeshPins(const JsonCursor& cursor, const TriangleMesh& mesh, std::vecto
   }
 }
 
-template <class Holds>
-void pinWhatIsIn(const JsonCursor& region, const ClothScene& cloth, std::vector<int>& pinned, Holds holds) {
+void pinWhatIsIn(const JsonCursor& cursor, const Region& region, const ClothScene& cloth, std::vector<int>& pinned) {
   const std::vector<btVector3> positions = cloth.nodePositions();
   const std::size_t before = pinned.size();
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (holds(positions[i])) pinned.push_back(static_cast<int>(i));
+    if (region.holds(positions[i])) pinned.push_back(static_cast<int>(i));
   }
-  if (pinned.size() == before) region.complain("pins nothing: no node of the cloth begins in it");
+  if (pinned.size() == before) cursor.complain("pins nothing: no node of the cloth begins in it");
 }
 
 void readRegionPins(const JsonCursor& cursor, const ClothScene& cloth, std::vector<int>& pinned) {
-  if (const auto region = cursor.find("box")) {
-    const Box box = readBox(*region);
-    pinWhatIsIn(*region, cloth, pinned, [&](const btVector3& place) {
-      const btVector3 inside = box.halfExtents - (place - box.centre).absolute();
-      return inside[inside.minAxis()] >= 0;
-    });
+  if (const auto box = cursor.find("box")) pinWhatIsIn(*box, {readBox(*box)}, cloth, pinned);
+  if (const auto sphere = cursor.find("sphere")) pinWhatIsIn(*sphere, {readSphere(*sphere)}, cloth, pinned);
+}
+
+/// What of a cloth is wetter or drier at the start than the rest.
+std::vector<WetRegion> readWetRegions(const JsonCursor& list) {
+  std::vector<WetRegion> regions;
+  for (JsonCursor element : list.elements()) {
+    element.expectObject(keys::wetRegion);
+    const bool isBox = element.exactlyOneOf({"box", "sphere"}) == "box";
+    const Region region = isBox ? Region{readBox(element.at("box"))} : Region{readSphere(element.at("sphere"))};
+    regions.push_back({region, element.at("saturation").number(Range::fraction())});
   }
-  if (const auto region = cursor.find("sphere")) {
-    const Sphere sphere = readSphere(*region);
-    pinWhatIsIn(*region, cloth, pinned, [&](const btVector3& place) {
-      return static_cast<double>((place - sphere.centre).length()) <= sphere.radius;
-    });
-  }
+  return regions;
 }
 
 void readPins(JsonCursor cursor, ClothScene& cloth) {
@@ -169,6 +169,7 @@ TwistScene readTwist(JsonCursor cursor, const ClothScene& cloth) {
   const double apart = static_cast<double>((isAlongU ? patch->edgeV : patch->edgeU).length());
   const Range approach{0, apart, true, "from 0 to less than the distance to the opposite edge", false};
   readNumber(cursor, "approach_m", approach, twist.approach);
+  readNumber(cursor, "let_go_s", Range::notNegative(), twist.letGo);
   return twist;
 }
 
@@ -227,6 +228,7 @@ ClothScene readCloth(JsonCursor cursor, Scene& scene, const EffectCatalogue& cat
   if (auto* patch = std::get_if<ClothPatch>(&cloth.shape)) patch->arealDensity = cloth.fabric.arealDensity;
   if (const auto pins = cursor.find("pins")) readPins(*pins, cloth);
   readNumber(cursor, "initial_saturation", Range::fraction(), cloth.initialSaturation);
+  if (const auto regions = cursor.find("wet_regions")) cloth.wetRegions = readWetRegions(*regions);
   if (const auto pace = cursor.find("water_pace")) cloth.pace = readPace(*pace);
   readNumber(cursor, "friction", Range::fraction(), cloth.friction);
   readDamping(cursor, scene.world, cloth);

@@ -35,6 +35,24 @@ void atPointer(const Scene& scene, const std::string& pointer, Action action) {
   }
 }
 
+/// Throws std::invalid_argument when a region holds no node.
+void wetAtTheBeginning(const ClothScene& scene, wetcloth::WetCloth& cloth) {
+  cloth.setSaturation(scene.initialSaturation);
+  if (scene.wetRegions.empty()) return;
+  std::vector<double> held;
+  for (int i = 0; i < scene.nodeCount(); ++i) held.push_back(scene.initialSaturation * cloth.capacity(i));
+  for (const WetRegion& wet : scene.wetRegions) {
+    int inside = 0;
+    for (int i = 0; i < scene.nodeCount(); ++i) {
+      if (!wet.region.holds(cloth.body().m_nodes[i].m_x)) continue;
+      held[static_cast<std::size_t>(i)] = wet.saturation * cloth.capacity(i);
+      ++inside;
+    }
+    if (inside == 0) throw std::invalid_argument("\"wet_regions\": no node of the cloth begins in one of them");
+  }
+  cloth.setHeld(held);
+}
+
 /// Its length too: a speed that btScalar cannot hold makes the next step's numbers infinite.
 bool isFinite(const btVector3& vector) { return std::isfinite(vector.length2()); }
 
@@ -56,7 +74,7 @@ SceneWorld::SceneWorld(const Scene& scene, Kind kind)
     atPointer(scene, pointer, [&] { m_cloths.push_back(&wet(scene.cloths[i], *m_bodies[i])); });
     m_cloths.back()->setPace(scene.cloths[i].pace);
     addEffects(i, *m_cloths.back());
-    m_cloths.back()->setSaturation(scene.cloths[i].initialSaturation);
+    atPointer(scene, pointer, [&] { wetAtTheBeginning(scene.cloths[i], *m_cloths.back()); });
   }
 }
 
@@ -156,6 +174,15 @@ void SceneWorld::step(const BeforeSubstep& before) {
   m_drops.forgetLanded(m_steps * m_scene.step);
 }
 
+double SceneWorld::filmOn(std::size_t collider) const {
+  double film = 0;
+  for (wetcloth::WetCloth* cloth : m_cloths) {
+    cloth->forEach<wetcloth::ContactWetting>(
+        [&](const wetcloth::ContactWetting& wetting) { film += wetting.film(*m_colliders[collider]); });
+  }
+  return film;
+}
+
 void SceneWorld::setIterations(int iterations) {
   m_world.world().getSolverInfo().m_numIterations = iterations;
   for (btSoftBody* body : m_bodies) body->m_cfg.piterations = iterations;
@@ -181,8 +208,9 @@ void SceneWorld::continueFrom(const SceneWorld& other) {
 void SceneWorld::save(std::ostream& stream) const { m_wetWorld->save(stream); }
 
 void SceneWorld::restore(std::istream& stream, int steps) {
-  m_wetWorld->restore(stream);
   m_steps = steps;
+  for (Twist& twist : m_twists) twist.moveTo(time());  // what it let go before is free, and then as it was
+  m_wetWorld->restore(stream);
   placeColliders();
 }
 

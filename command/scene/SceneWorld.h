@@ -54,6 +54,8 @@ class SceneWorld {
   const FallingDrops& drops() const { return m_drops; }
   const std::vector<wetcloth::CollisionAudit*>& audits() const { return m_audits; }
   const Colliders& colliders() const { return m_colliders; }
+  /// Water on a collider, by its place in the scene, that the cloths' effects know of [kg].
+  double filmOn(std::size_t collider) const;
   /// Bullet's own springs of each cloth; none outside the deformable world, or where `hooke_springs` hold a wet cloth.
   const std::vector<std::optional<DeformableSprings>>& springs() const { return m_springs; }
   /// Null: Bullet's own solver steps the cloths.

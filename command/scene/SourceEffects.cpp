@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Zlib
 #include "command/scene/EffectGroups.h"
 
+#include "command/scene/ColliderSurface.h"
 #include "command/scene/ReadParameters.h"
 
 #include <cstddef>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace command {
@@ -28,7 +30,7 @@ const KeyTable& streamConeKeys() {
 }
 
 const KeyTable& filmKeys() {
-  static const KeyTable keys{"film", {"collider", "water_kg"}};
+  static const KeyTable keys{"film", {"collider", "water_kg", "figure", "water_kg_m2"}};
   return keys;
 }
 
@@ -54,15 +56,38 @@ struct Film {
   double water;  ///< [kg]
 };
 
+Film readColliderFilm(const JsonCursor& cursor, const Scene& scene) {
+  const int collider = cursor.at("collider").integer(0, static_cast<int>(scene.colliders.size()) - 1);
+  return {static_cast<std::size_t>(collider), cursor.at("water_kg").number(Range::notNegative())};
+}
+
+/// Skin that is equally wet all over.
+std::vector<Film> readFigureFilms(const JsonCursor& cursor, const Scene& scene) {
+  std::vector<std::pair<std::string, FigureScene>> choices;
+  for (const FigureScene& figure : scene.figures) choices.emplace_back(figure.name, figure);
+  if (choices.empty()) cursor.at("figure").complain("the scene has no figures");
+  const FigureScene figure = cursor.at("figure").choice(choices);
+  const double perArea = cursor.at("water_kg_m2").number(Range::notNegative());
+  std::vector<Film> films;
+  for (std::size_t i = figure.first; i < figure.first + figure.count; ++i) {
+    films.push_back({i, perArea * areaOf(scene.colliders[i])});
+  }
+  return films;
+}
+
 std::vector<Film> readFilms(const JsonCursor& cursor, const Scene& scene) {
   if (scene.colliders.empty() && !cursor.elements().empty()) cursor.complain("the scene has no colliders to be wet");
   std::vector<Film> films;
-  std::set<int> seen;
-  for (JsonCursor film : cursor.elements()) {
-    film.expectObject(filmKeys());
-    const int collider = film.at("collider").integer(0, static_cast<int>(scene.colliders.size()) - 1);
-    if (!seen.insert(collider).second) film.at("collider").complain("has a film already");
-    films.push_back({static_cast<std::size_t>(collider), film.at("water_kg").number(Range::notNegative())});
+  std::set<std::size_t> seen;
+  for (JsonCursor element : cursor.elements()) {
+    element.expectObject(filmKeys());
+    const std::string whose = element.exactlyOneOf({"collider", "figure"});
+    const std::vector<Film> found =
+        whose == "figure" ? readFigureFilms(element, scene) : std::vector<Film>{readColliderFilm(element, scene)};
+    for (const Film& film : found) {
+      if (!seen.insert(film.collider).second) element.at(whose).complain("has a film already");
+    }
+    films.insert(films.end(), found.begin(), found.end());
   }
   return films;
 }

@@ -3,6 +3,8 @@
 
 #include "command/scene/PatchReader.h"
 
+#include "bullet_wetcloth/water/DryMass.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,14 +20,29 @@ bool isAlongU(Edge edge) { return edge == Edge::bottom || edge == Edge::top; }
 
 Twist::Twist(btSoftBody& body, const ClothPatch& patch, const TwistScene& scene) : m_body(body), m_scene(scene) {
   m_nodes = nodesOfEdge(patch, scene.edge);
-  for (const int node : m_nodes) m_starts.push_back(body.m_nodes[node].m_x);
+  const std::vector<double> areas = wetcloth::nodeAreas(body);
+  for (const int node : m_nodes) {
+    m_starts.push_back(body.m_nodes[node].m_x);
+    m_dryMasses.push_back(patch.arealDensity * areas[static_cast<std::size_t>(node)]);
+  }
   m_centre = (m_starts.front() + m_starts.back()) / 2;
   m_axis = (isAlongU(scene.edge) ? patch.edgeV : patch.edgeU).normalized();
   const bool isFarEdge = scene.edge == Edge::top || scene.edge == Edge::right;
   m_inwards = isFarEdge ? btVector3(-m_axis) : m_axis;
 }
 
+/// Of a wet cloth too these are the dry masses: what the nodes hold comes on top.
+void Twist::letGo() {
+  for (std::size_t i = 0; i < m_nodes.size(); ++i) m_body.m_nodes[m_nodes[i]].m_im = btScalar(1 / m_dryMasses[i]);
+  m_body.updateLinkConstants();
+  m_isHeld = false;
+}
+
 void Twist::moveTo(double time) {
+  if (time >= m_scene.letGo) {
+    if (m_isHeld) letGo();
+    return;
+  }
   const double turns = std::min(std::abs(m_scene.turnsPerSecond) * time, m_scene.turns);
   const btQuaternion turn(m_axis, btScalar(SIMD_2_PI * std::copysign(turns, m_scene.turnsPerSecond)));
   const double share = m_scene.turns > 0 ? turns / m_scene.turns : 0;

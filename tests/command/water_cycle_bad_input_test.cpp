@@ -273,7 +273,6 @@ TEST(WaterCycleBadInput, KeysThatMustBeThere) {
                                           effectsAt + "splash/velocity_m_s",
                                           effectsAt + "splash/sphere/centre_m",
                                           effectsAt + "splash/sphere/radius_m",
-                                          effectsAt + "contact_wetting/films/0/collider",
                                           effectsAt + "contact_wetting/films/0/water_kg"};
   for (const std::string& pointer : required) {
     Json scene = goodScene();
@@ -282,6 +281,20 @@ TEST(WaterCycleBadInput, KeysThatMustBeThere) {
     parent.erase(place.back());
     expectRefused(scene, place.parent_pointer().to_string(), parent, "the key \"" + place.back() + "\" is missing");
   }
+}
+
+TEST(WaterCycleBadInput, AFilmIsOnAColliderOrOnAFigure) {
+  const std::string film = effectsAt + "contact_wetting/films/0";
+  expectRefusedAt(goodScene(), film, {{"water_kg", 1}}, "exactly one of the keys collider, figure");
+  expectRefusedAt(goodScene(), film, {{"collider", 0}, {"figure", "man"}, {"water_kg", 1}},
+                  "exactly one of the keys collider, figure");
+  expectRefused(
+      [&] {
+        Json scene = goodScene();
+        scene[Json::json_pointer(film)] = {{"figure", "man"}, {"water_kg_m2", 1}};
+        return scene;
+      }(),
+      film + "/figure", "man", "the scene has no figures");
 }
 
 TEST(WaterCycleBadInput, MotionsThatCannotBe) {

@@ -32,7 +32,6 @@ constexpr float shadowSoftness = 0.009F;  // over the size of what there is to s
 /// Cloth sinks a little into what it lies on, and its triangles cut into what is round: over the same size.
 constexpr float sunk = 0.035F;
 
-const Vector3 stoneColour{0.50F, 0.42F, 0.33F};
 const Vector3 metalColour{0.16F, 0.17F, 0.19F};
 const Vector3 dropColour{0.30F, 0.42F, 0.50F};
 
@@ -95,7 +94,7 @@ class Renderer::Parts {
   void drawGround(const ShaderProgram& program, const Ground& ground, const ShadowMap::Footprint& where,
                   float behind) const;
   void drawGrounds() const;
-  void drawSolids() const;
+  void drawSolids(const Frame& frame) const;
   void drawDrops(const Frame& frame);
   void drawCloths() const;
   void drawWater() const;
@@ -264,12 +263,16 @@ void Renderer::Parts::drawGrounds() const {
   }
 }
 
-void Renderer::Parts::drawSolids() const {
+/// A film of water makes what is below it darker, by reflecting inside, and smooth.
+void Renderer::Parts::drawSolids(const Frame& frame) const {
   m_solid.use();
   m_solid.set("behind", m_behind);
-  m_solid.set("albedo", stoneColour);
-  m_solid.set("roughness", 0.7F);
-  for (const auto& solid : m_solids) solid->draw();
+  for (std::size_t i = 0; i < m_solids.size(); ++i) {
+    const float wet = frame.wetness.empty() ? 0 : frame.wetness[i];
+    m_solid.set("albedo", m_scenery.solids[i].colour * (1 - 0.3F * wet));
+    m_solid.set("roughness", 0.7F - 0.5F * wet);
+    m_solids[i]->draw();
+  }
   m_solid.set("behind", 0.0F);
   m_solid.set("albedo", metalColour);
   m_solid.set("roughness", 0.4F);
@@ -368,7 +371,7 @@ void Renderer::Parts::draw(const Frame& frame, const View& view, const Area& are
   m_buffer.begin(area.width, area.height);
   setState();
   drawCloths();  // the nearest first, so that what they hide is not painted
-  drawSolids();
+  drawSolids(frame);
   drawDrops(frame);
   drawGrounds();
   m_backdrop.use();

@@ -2,7 +2,8 @@ const threads = 128;  // across a cloth; real ones would be finer than pixels
 const shadowTexels = 1024;
 const shadowSoftness = 0.009;  // over the size of what there is to see
 const sunk = 0.035;  // over the same: cloth sinks a little into what it lies on
-const stone = {albedo: [0.50, 0.42, 0.33], roughness: 0.7};
+/** A film of water makes what is below it darker, by reflecting inside, and smooth. */
+const wetSolid = (colour, wet) => ({albedo: scaled(colour, 1 - 0.3 * wet), roughness: 0.7 - 0.5 * wet});
 const metal = {albedo: [0.16, 0.17, 0.19], roughness: 0.4};
 const water = {albedo: [0.30, 0.42, 0.50], roughness: 0.15};
 
@@ -240,7 +241,7 @@ class Renderer {
     this.castShadows(points);
     this.setPicture(camera, this.run.times[frame]);
     this.drawCloths();
-    this.drawSolids(this.run.drops[frame]);
+    this.drawSolids(this.run.drops[frame], this.run.wetness[frame]);
     this.drawGrounds();
     this.drawBackdrop();
     this.drawWater();
@@ -308,11 +309,13 @@ class Renderer {
     }
   }
 
-  drawSolids(drops) {
+  drawSolids(drops, wetness) {
     const {gl, programs: {solid}} = this;
     gl.vertexAttrib4f(2, 0, 0, 0, 1);  // the solid itself, neither moved nor scaled
-    solid.use({behind: this.behind, ...stone});
-    for (const {mesh} of this.solids) mesh.draw();
+    this.solids.forEach(({mesh, solid: {colour}}, i) => {
+      solid.use({behind: this.behind, ...wetSolid(colour, wetness[i] || 0)});
+      mesh.draw();
+    });
     solid.use({behind: 0, ...metal});
     for (const mesh of this.bars.meshes) mesh.draw();
     if (drops.length === 0) return;

@@ -138,7 +138,8 @@ async function unpackedRun() {
   const reader = new Reader(await inflated(document.getElementById('bytes').textContent));
   const frames = head.times.length;
   const cloths = head.cloths.map((facts) => new ClothTrack(head, facts, reader));
-  const solids = head.solids.map(({vertices, triangles}) => ({
+  const solids = head.solids.map(({vertices, triangles, colour}) => ({
+    colour,
     vertices: reader.floats(3 * vertices),
     normals: reader.floats(3 * vertices),
     triangles: reader.uint32s(3 * triangles),

@@ -102,18 +102,19 @@ def tshirt(spacing=0.0134, front_z=0.137, back_z=-0.158):
 
 
 def bathrobe(spacing=0.0212, front_z=0.137, back_z=-0.160, between_fronts=0.020):
-    overlap, belt = 0.06, 1.06
+    overlap, fastened = 0.06, {"belt": 1.06, "breast": 1.28}
     corners = {"neck": (0.080, 1.542), "shoulder": (0.215, 1.492), "armpit": (0.205, 1.28), "underarm": (0.31, 1.160), "hem": (0.375, 0.36),
                "cuff_top": by_arm(0.55, 0.092), "cuff_bottom": by_arm(0.55, -0.118)}
     edges = side_edges(corners, spacing)
-    lapel_end, corner = (-overlap, 1.12), (-overlap, corners["hem"][1])
+    lapel_end, corner = (-overlap, 1.32), (-overlap, corners["hem"][1])
     edges |= {"lapel_left": evenly([corners["neck"], lapel_end], spacing), "edge_left": evenly([lapel_end, corner], spacing),
               "hem_left": evenly([corners["hem"], corner], spacing)}
     round_ = ("shoulder_left", "armhole_left", "side_left", "hem_left", "edge_left", "lapel_left")
-    marks = {"belt": np.array([[x, belt] for x in (-0.04, 0, 0.04)])}
+    marks = {name: np.array([[x, height] for x in (-0.04, 0, 0.04)]) for name, height in fastened.items()}
     left = Panel("front_left", [(edge, edges[edge]) for edge in round_], spacing, marks)
     right = left.mirrored("front_right")
-    right.lines["belt"] = right.lines["belt"][::-1]  # the same places in the same order
+    for name in fastened:
+        right.lines[name] = right.lines[name][::-1]  # the same places in the same order
     edges |= mirrored(edges)
     edges["neck"] = evenly(dip(corners["neck"], 0.025), spacing)
     edges["hem"] = evenly([corners["hem"], np.array(corners["hem"]) * [-1, 1]], spacing)
@@ -121,9 +122,9 @@ def bathrobe(spacing=0.0212, front_z=0.137, back_z=-0.160, between_fronts=0.020)
     back = Panel("back", [(edge, edges[edge]) for edge in round_], spacing)
     panels = [(back, back_z), (left, round(front_z + between_fronts, 4)), (right, front_z)] + sleeves(edges, spacing, front_z, back_z)
     seams = [(f"front_{side}", "back", f"{edge}_{side}") for edge in ("shoulder", "side") for side in ("left", "right")]
-    seams += sleeve_seams({"left": "front_left", "right": "front_right"}) + [("front_left", "front_right", "belt")]
+    seams += sleeve_seams({"left": "front_left", "right": "front_right"}) + [("front_left", "front_right", name) for name in fastened]
     return Garment("bathrobe", "A bathrobe for the figure of ../figures: to the middle of the calf, the left front over the right, "
-                   "which a belt holds together.", panels, seams)
+                   "held together at the belt and at the breast.", panels, seams)
 
 
 class Sewn:

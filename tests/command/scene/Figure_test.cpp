@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Figures: where a motion file puts their pieces, and what is said of bad ones.
 
+#include "command/scene/ColliderSurface.h"
 #include "command/scene/SceneReader.h"
 #include "command/scene/SceneWorld.h"
 #include "tests/command/Command.h"
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -127,6 +129,29 @@ TEST(Figure, PartsAreHullsOfSpheres) {
     EXPECT_NEAR(static_cast<double>(std::min(btFabs(one), btFabs(other))), 0, 1e-5);
     EXPECT_GE(std::min(one, other), btScalar(-1e-5));
   }
+}
+
+// As much on each piece as its surface is large.
+TEST(Figure, SkinIsWetAllOver) {
+  Reading reading;
+  SKIP_WITHOUT_ASSIMP(reading);
+  Json json = figureScene();
+  json["figures"][0]["name"] = "arm";
+  json["cloths"][0]["effects"]["contact_wetting"]["films"] = {{{"figure", "arm"}, {"water_kg_m2", 0.25}}};
+  const command::Scene scene = reading.scene(json);
+  const command::SceneWorld world(scene);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(world.filmOn(i), 0.25 * command::areaOf(scene.colliders[i]), 1e-12);
+    // Round bones of 1 m: 2 pi r l and a ball's 4 pi r^2, less what a polyhedron lacks.
+    EXPECT_NEAR(command::areaOf(scene.colliders[i]), SIMD_2_PI * 0.1 * 1.2, 0.04);
+  }
+  json["cloths"][0]["effects"]["contact_wetting"]["films"][0]["figure"] = "leg";
+  EXPECT_NE(reading.complaint(json).find("/films/0/figure"), std::string::npos);
+  json["cloths"][0]["effects"]["contact_wetting"]["films"] = {{{"figure", "arm"}, {"water_kg_m2", -1}}};
+  EXPECT_NE(reading.complaint(json).find("/films/0/water_kg_m2"), std::string::npos);
+  json["cloths"][0]["effects"]["contact_wetting"]["films"] = {{{"figure", "arm"}, {"water_kg_m2", 1}},
+                                                              {{"collider", 1}, {"water_kg", 1}}};
+  EXPECT_NE(reading.complaint(json).find("/films/1/collider"), std::string::npos);
 }
 
 TEST(Figure, BadOnesAreNamed) {
