@@ -15,6 +15,7 @@ std::vector<HardCase> timeCases();
 std::vector<HardCase> springCases();
 std::vector<HardCase> cubicCases();
 std::vector<HardCase> guardCases();
+std::vector<HardCase> wornCases();
 std::vector<HardCase> laundryCases();
 
 }  // namespace stability
