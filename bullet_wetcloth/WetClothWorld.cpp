@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/bullet/SubstepHook.h"
+#include "bullet_wetcloth/bullet/Versions.h"
 #include "bullet_wetcloth/solver/ClothSolver.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 #include "bullet_wetcloth/state/StateEnvelope.h"
@@ -39,15 +40,6 @@ bool isDeformable(const btDynamicsWorld& world) {
   return world.getWorldType() == BT_DEFORMABLE_MULTIBODY_DYNAMICS_WORLD;
 }
 
-bool isReduced(const btSoftBody& body) {
-#if BT_BULLET_VERSION >= 323
-  return body.m_reducedModel;
-#else
-  static_cast<void>(body);
-  return false;
-#endif
-}
-
 void requireValid(const std::vector<Fabric>& fabrics, const std::vector<int>& fabricOfNode, int nodes) {
   if (fabrics.empty()) rejectValue("fabrics.size()", 0, "at least 1");
   for (std::size_t k = 0; k < fabrics.size(); ++k) requireValid(fabrics[k], "fabrics[" + std::to_string(k) + "]");
@@ -62,7 +54,7 @@ void requireValid(const std::vector<Fabric>& fabrics, const std::vector<int>& fa
 }
 
 bool hasGravityForce(btDeformableBodySolver& solver) {
-  const btAlignedObjectArray<btDeformableLagrangianForce*>& forces = *solver.getLagrangianForceArray();
+  const btAlignedObjectArray<btDeformableLagrangianForce*>& forces = solver.m_objective->m_lf;
   for (int i = 0; i < forces.size(); ++i) {
     if (forces[i]->getForceType() == BT_GRAVITY_FORCE) return true;
   }
@@ -261,7 +253,7 @@ btVector3 WetClothWorld::gravityOf(const btSoftBody& body) const {
   btVector3 gravity(0, 0, 0);
   auto* solver = static_cast<btDeformableBodySolver*>(body.getSoftBodySolver());
   if (!solver) return gravity;
-  const btAlignedObjectArray<btDeformableLagrangianForce*>& forces = *solver->getLagrangianForceArray();
+  const btAlignedObjectArray<btDeformableLagrangianForce*>& forces = solver->m_objective->m_lf;
   for (int i = 0; i < forces.size(); ++i) {
     if (forces[i]->getForceType() != BT_GRAVITY_FORCE) continue;
     for (int k = 0; k < forces[i]->m_softBodies.size(); ++k) {

@@ -86,8 +86,8 @@ function(_bullet_check_version version problem)
 ${BulletSoftBody_FIND_VERSION}: Bullet keeps no binary interface between versions.")
   else()
     set(text "Bullet in ${BulletSoftBody_SOURCE} is version ${version}, and it has to be \
-${BulletSoftBody_FIND_VERSION} or newer. 3.23 to 3.27 are known to work; older ones lack members of \
-btDeformableBodySolver and of the deformable contacts.")
+${BulletSoftBody_FIND_VERSION} or newer: 3.05 to 3.26 are known to work; 2.88 lacks the \
+deformable world, and 2.89 its contacts of nodes.")
   endif()
   set(${problem} "${text}" PARENT_SCOPE)
 endfunction()

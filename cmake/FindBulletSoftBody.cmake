@@ -279,11 +279,14 @@ endmacro()
 
 set(_bullet_advice
     "Install it:
-  Debian 12, Ubuntu 24.04 or newer: apt install libbullet-dev libeigen3-dev
+  Debian 11, Ubuntu 22.04 or newer: apt install libbullet-dev libeigen3-dev
   Homebrew:                         brew install bullet eigen
   vcpkg:                            vcpkg install bullet3 eigen3
   Conan:                            conan install --requires=bullet3/3.25 --requires=eigen/3.4.0
 or say where it is: cmake -DBULLET_ROOT=<prefix>, a prefix that has include/bullet and lib.
+")
+# A Bullet that is there and too old is not mended by what a system has to install, which may be that one.
+set(_bullet_advice_on_version "Say where another one is: cmake -DBULLET_ROOT=<prefix>, a prefix that has include/bullet and lib.
 ")
 set(_bullet_problem "")
 set(BulletSoftBody_PREFIX "")
@@ -322,6 +325,9 @@ _bullet_check_components()
 set(BulletSoftBody_NOT_FOUND_MESSAGE "${_bullet_problem}")
 if(_bullet_problem)
   set(BulletSoftBody_FOUND FALSE)
+  if(_bullet_problem MATCHES " is version [0-9.]+, and it has to be ")
+    set(_bullet_advice "${_bullet_advice_on_version}")
+  endif()
   if(BulletSoftBody_FIND_REQUIRED)
     message(FATAL_ERROR "${_bullet_problem}\n${_bullet_advice}")
   elseif(NOT BulletSoftBody_FIND_QUIETLY)
@@ -342,7 +348,7 @@ else()
     HANDLE_COMPONENTS)
 endif()
 
-foreach(_bullet_name IN ITEMS libraries program problem advice precision target_name found_in)
+foreach(_bullet_name IN ITEMS libraries program problem advice advice_on_version precision target_name found_in)
   unset(_bullet_${_bullet_name})
 endforeach()
 unset(_bullet_name)

@@ -63,17 +63,17 @@ function(wetcloth_add_library target)
   endif()
 endfunction()
 
-# wetcloth_install_library(<target> <export set>): with its part of the CMake package
-function(wetcloth_install_library target set)
+# wetcloth_install_library(<target> <export set> <component>): with its part of the CMake package
+function(wetcloth_install_library target set component)
   install(
     TARGETS ${target}
     EXPORT ${set}
-    COMPONENT library)
+    COMPONENT ${component})
   install(
     EXPORT ${set}
     NAMESPACE bullet_wetcloth::
     DESTINATION "${WETCLOTH_PACKAGE_DIR}"
-    COMPONENT library)
+    COMPONENT ${component})
 endfunction()
 
 # wetcloth_install_headers(<header>...): relative to this folder, which is that below include/bullet_wetcloth, too

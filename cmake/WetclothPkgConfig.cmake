@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Zlib
-# wetcloth_install_pkg_config(<target> <description> [REQUIRES <name>] [BULLET <target>])
+# wetcloth_install_pkg_config(<target> <description> <component> [REQUIRES <name>] [BULLET <target>])
 #
 # <target>.pc, for builds without CMake. It may be moved with its tree; Bullet stays where it was found.
-function(wetcloth_install_pkg_config target description)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "" "REQUIRES;BULLET" "")
+function(wetcloth_install_pkg_config target description component)
+  cmake_parse_arguments(PARSE_ARGV 3 arg "" "REQUIRES;BULLET" "")
   set(place "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
   file(RELATIVE_PATH to_prefix "/${place}" "/")
 
@@ -40,5 +40,5 @@ Libs: ${libs}
   install(
     FILES "${CMAKE_CURRENT_BINARY_DIR}/${target}.pc"
     DESTINATION "${place}"
-    COMPONENT library)
+    COMPONENT ${component})
 endfunction()

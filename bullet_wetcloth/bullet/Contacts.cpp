@@ -2,6 +2,7 @@
 #include "bullet_wetcloth/bullet/Contacts.h"
 
 #include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/Versions.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -70,6 +71,11 @@ std::string whyNoFaceContacts(const btSoftBody& body, bool deformable) {
     return "the body collides by clusters (fCollision::CL_SS), and Bullet lists no nodes for these";
   }
   if (deformable) {
+    if (!keepsFaceContacts()) {
+      return "the deformable world of Bullet " + bulletVersion() +
+             " empties its list of contacts with other bodies' triangles in each substep; that of 3.22 and newer keeps "
+             "it";
+    }
     if (flags & Flags::VF_DD) return "";
     return "m_cfg.collisions has not fCollision::VF_DD, by which the deformable world lists contacts of nodes with "
            "other "

@@ -2,6 +2,7 @@
 #include "bullet_wetcloth/state/SoftBodyState.h"
 
 #include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/bullet/Versions.h"
 #include "bullet_wetcloth/state/TreeState.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 
 void requireSavable(StateArchive& archive, const btSoftBody& body) {
   if (body.m_tetras.size() > 0) archive.fail("a soft body has tetrahedra, whose state is not saved");
-  if (body.m_reducedModel) archive.fail("a soft body is a btReducedDeformableBody, whose state is not saved");
+  if (isReduced(body)) archive.fail("a soft body is a btReducedDeformableBody, whose state is not saved");
   if (body.m_joints.size() > 0) archive.fail("a soft body has joints of clusters, whose state is not saved");
 }
 

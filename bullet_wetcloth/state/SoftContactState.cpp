@@ -84,6 +84,16 @@ void transferPositionBased(StateArchive& archive, btSoftBody& body, const SoftBo
   archive.growing(body.m_scontacts, transferSoft, namesNodeAndFace<Soft>(body, bodies));
 }
 
+// Bullet has it from 3.22 on.
+template <class FaceNode>
+auto transferOther(StateArchive& archive, FaceNode& contact, int /*newer*/)
+    -> decltype(archive.object(contact.m_colObj)) {
+  archive.object(contact.m_colObj);
+}
+
+template <class FaceNode>
+void transferOther(StateArchive& /*archive*/, FaceNode& /*contact*/, long /*older*/) {}
+
 void transferDeformable(StateArchive& archive, btSoftBody& body, const SoftBodyArray& bodies) {
   using NodeRigid = btSoftBody::DeformableNodeRigidContact;
   const auto transferNodeRigid = [&](NodeRigid& contact) {
@@ -102,7 +112,7 @@ void transferDeformable(StateArchive& archive, btSoftBody& body, const SoftBodyA
   const auto transferFaceNode = [&](FaceNode& contact) {
     transferNodePointer(archive, body.m_nodes, contact.m_node);
     transferFacePointer(archive, bodies, contact.m_face);
-    archive.object(contact.m_colObj);
+    transferOther(archive, contact, 0);
     archive.value(contact.m_bary, contact.m_weights, contact.m_normal, contact.m_margin, contact.m_friction);
     archive.value(contact.m_imf, contact.m_c0);
   };

@@ -101,8 +101,8 @@ btSoftBody& BulletWorld::add(std::unique_ptr<btSoftBody> body, const DeformableS
 /// Not through the world: its addForce() gives a second body the parameters of the first force of the same type.
 void BulletWorld::addForce(btSoftBody& body, std::unique_ptr<btDeformableLagrangianForce> force) {
   force->addSoftBody(&body);
-  force->setIndices(m_deformableSolver->getIndices());
-  m_deformableSolver->getLagrangianForceArray()->push_back(force.get());
+  force->setIndices(m_deformableSolver->m_objective->getIndices());
+  m_deformableSolver->m_objective->m_lf.push_back(force.get());
   m_forces.push_back(std::move(force));
 }
 

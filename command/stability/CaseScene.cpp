@@ -147,7 +147,7 @@ void CaseScene::setGravity(const btVector3& gravity) {
   for (const Cloth& cloth : m_cloths) {
     auto* solver = static_cast<btDeformableBodySolver*>(cloth.body->getSoftBodySolver());
     if (solver == nullptr) continue;
-    const btAlignedObjectArray<btDeformableLagrangianForce*>& forces = *solver->getLagrangianForceArray();
+    const btAlignedObjectArray<btDeformableLagrangianForce*>& forces = solver->m_objective->m_lf;
     for (int i = 0; i < forces.size(); ++i) {
       if (forces[i]->getForceType() == BT_GRAVITY_FORCE) {
         static_cast<btDeformableGravityForce*>(forces[i])->m_gravity = gravity;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Zlib
+#include "bullet_wetcloth/bullet/Versions.h"
 #include "command/stability/CaseParts.h"
 #include "command/stability/Cases.h"
 #include "command/stability/NaiveMethods.h"
@@ -236,6 +237,7 @@ HardCase underLoad() {
 
 HardCase clothOnCloth() {
   HardCase hardCase = everywhere("cloth_on_cloth", "contacts", "a dry cloth falls on a wet one, which wets it");
+  if (!wetcloth::keepsFaceContacts()) hardCase.worlds = {World::softRigid, World::softMultiBody};
   hardCase.build = [](CaseScene& scene) {
     scene.addFloor(0);
     std::vector<wetcloth::WetCloth*> cloths;

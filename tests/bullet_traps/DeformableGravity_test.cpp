@@ -3,7 +3,7 @@
 // variable that it never set.
 
 #include "bullet_wetcloth/bullet_wetcloth.h"
-#include "tests/support/BodyScene.h"
+#include "tests/support/BulletWorld.h"
 #include "tests/support/Patches.h"
 
 #include <gtest/gtest.h>
@@ -32,16 +32,6 @@ TEST(DeformableGravity, ThatIsMissingIsSaidWhenABodyIsAdded) {
     }
     bullet.remove(*body);
   }
-}
-
-// Its nodes follow its modes: an effect would do nothing, and nobody would know.
-TEST(ReducedDeformableBody, IsRefused) {
-  BodyScene scene(WorldKind::deformable);
-  scene.body().m_reducedModel = true;
-  wetcloth::WetClothWorld wet(scene.world());
-  EXPECT_THROW(wet.add(scene.body()), std::invalid_argument);
-  scene.body().m_reducedModel = false;
-  EXPECT_NO_THROW(wet.add(scene.body()));
 }
 
 }  // namespace

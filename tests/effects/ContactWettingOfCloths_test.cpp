@@ -66,7 +66,7 @@ ContactWetting::Parameters atRate(double rate) {
   return parameters;
 }
 
-TEST_IN_EVERY_WORLD(ContactWettingOfCloths, TwoTowelsPressedTogetherBecomeEquallyWet) {
+TEST_IN_WORLDS_WITH_FACE_CONTACTS(ContactWettingOfCloths, TwoTowelsPressedTogetherBecomeEquallyWet) {
   TwoTowels towels(GetParam());
   towels.lower().add<ContactWetting>(atRate(1));
   towels.upper().setSaturation(0.6);
@@ -77,7 +77,7 @@ TEST_IN_EVERY_WORLD(ContactWettingOfCloths, TwoTowelsPressedTogetherBecomeEquall
   EXPECT_NEAR(towels.held(), all, 1e-14 * all);
 }
 
-TEST_IN_EVERY_WORLD(ContactWettingOfCloths, WhatOneDripsTheOtherAbsorbs) {
+TEST_IN_WORLDS_WITH_FACE_CONTACTS(ContactWettingOfCloths, WhatOneDripsTheOtherAbsorbs) {
   TwoTowels towels(GetParam());
   towels.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
   towels.upper().setSaturation(0.6);
@@ -97,7 +97,7 @@ TEST_IN_EVERY_WORLD(ContactWettingOfCloths, WhatOneDripsTheOtherAbsorbs) {
 
 // At the rate k, two sheets that touch all over lose their difference with the time C / (2 k), C their capacity per
 // area; contacts that come and go make it longer.
-TEST_IN_EVERY_WORLD(ContactWettingOfCloths, TheRateIsPerAreaOfContactOnce) {
+TEST_IN_WORLDS_WITH_FACE_CONTACTS(ContactWettingOfCloths, TheRateIsPerAreaOfContactOnce) {
   TwoTowels towels(GetParam());
   towels.scene.step(120);
   const double rate = 0.05;
@@ -116,7 +116,7 @@ TEST_IN_EVERY_WORLD(ContactWettingOfCloths, TheRateIsPerAreaOfContactOnce) {
   EXPECT_LT(difference, 0.6 - 0.3 * (0.6 - fastest));
 }
 
-TEST_IN_EVERY_WORLD(ContactWettingOfCloths, APairWithTheEffectOnBothIsSeenToOnce) {
+TEST_IN_WORLDS_WITH_FACE_CONTACTS(ContactWettingOfCloths, APairWithTheEffectOnBothIsSeenToOnce) {
   TwoTowels once(GetParam());
   TwoTowels twice(GetParam());
   once.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
@@ -136,7 +136,7 @@ TEST_IN_EVERY_WORLD(ContactWettingOfCloths, APairWithTheEffectOnBothIsSeenToOnce
   }
 }
 
-TEST_IN_EVERY_WORLD(ContactWettingOfCloths, EitherOfTheTwoMayHaveTheEffect) {
+TEST_IN_WORLDS_WITH_FACE_CONTACTS(ContactWettingOfCloths, EitherOfTheTwoMayHaveTheEffect) {
   TwoTowels towels(GetParam());
   towels.upper().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
   towels.upper().setSaturation(0.6);
@@ -145,7 +145,7 @@ TEST_IN_EVERY_WORLD(ContactWettingOfCloths, EitherOfTheTwoMayHaveTheEffect) {
   EXPECT_NEAR(towels.lower().ledger().absorbed, towels.upper().ledger().dripped, 1e-16);
 }
 
-TEST_IN_EVERY_WORLD(ContactWettingOfCloths, DryTowelsAreAsIfItWereNotThere) {
+TEST_IN_WORLDS_WITH_FACE_CONTACTS(ContactWettingOfCloths, DryTowelsAreAsIfItWereNotThere) {
   TwoTowels with(GetParam());
   TwoTowels without(GetParam());
   ContactWetting& wetting = with.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
@@ -157,7 +157,7 @@ TEST_IN_EVERY_WORLD(ContactWettingOfCloths, DryTowelsAreAsIfItWereNotThere) {
   EXPECT_TRUE(sameBits(stateOf(with.upperBody()), stateOf(without.upperBody())));
 }
 
-TEST_IN_EVERY_WORLD(ContactWettingOfCloths, EquallyWetTowelsIdle) {
+TEST_IN_WORLDS_WITH_FACE_CONTACTS(ContactWettingOfCloths, EquallyWetTowelsIdle) {
   TwoTowels towels(GetParam());
   ContactWetting& wetting = towels.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
   towels.lower().setSaturation(1);
@@ -166,7 +166,7 @@ TEST_IN_EVERY_WORLD(ContactWettingOfCloths, EquallyWetTowelsIdle) {
   EXPECT_EQ(wetting.nodesVisited(), 0);
 }
 
-TEST_IN_EVERY_WORLD(ContactWettingOfCloths, NoStepIsTooLong) {
+TEST_IN_WORLDS_WITH_FACE_CONTACTS(ContactWettingOfCloths, NoStepIsTooLong) {
   TwoTowels towels(GetParam());
   towels.scene.step(120);
   towels.lower().add<ContactWetting>(atRate(10));
@@ -187,7 +187,7 @@ TEST_IN_EVERY_WORLD(ContactWettingOfCloths, NoStepIsTooLong) {
 }
 
 // What leaves one cloth takes its nodes' velocity along, what arrives brings it.
-TEST_IN_EVERY_WORLD(ContactWettingOfCloths, MomentumIsKept) {
+TEST_IN_WORLDS_WITH_FACE_CONTACTS(ContactWettingOfCloths, MomentumIsKept) {
   TwoTowels towels(GetParam());
   towels.scene.step(120);
   for (int i = 0; i < 100 && towels.contacts() < 16; ++i) towels.scene.step(1);
@@ -203,7 +203,7 @@ TEST_IN_EVERY_WORLD(ContactWettingOfCloths, MomentumIsKept) {
   EXPECT_NEAR(total(), before, (kIsDouble ? 1e-12 : 1e-5) * before);
 }
 
-TEST_IN_EVERY_WORLD(ContactWettingOfCloths, ATowelThatIsDeletedIsNotLookedAt) {
+TEST_IN_WORLDS_WITH_FACE_CONTACTS(ContactWettingOfCloths, ATowelThatIsDeletedIsNotLookedAt) {
   TwoTowels towels(GetParam());
   towels.scene.wet().setLog({});
   towels.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));
@@ -216,7 +216,7 @@ TEST_IN_EVERY_WORLD(ContactWettingOfCloths, ATowelThatIsDeletedIsNotLookedAt) {
   EXPECT_EQ(towels.lower().ledger().held, held);
 }
 
-TEST_IN_EVERY_WORLD(ContactWettingOfCloths, GoesOnAfterACut) {
+TEST_IN_WORLDS_WITH_FACE_CONTACTS(ContactWettingOfCloths, GoesOnAfterACut) {
   TwoTowels towels(GetParam());
   towels.scene.wet().setLog({});
   towels.lower().add<ContactWetting>(atRate(ContactWetting::Parameters().rate));

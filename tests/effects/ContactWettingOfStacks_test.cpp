@@ -94,7 +94,7 @@ class ContactWettingOfStacks {
   }
 };
 
-TEST_F_IN_EVERY_WORLD(ContactWettingOfStacks, ManyGiveWhatOneDoes) {
+TEST_F_IN_WORLDS_WITH_FACE_CONTACTS(ContactWettingOfStacks, ManyGiveWhatOneDoes) {
   for (const Effect effect : {Effect::onTheOne, Effect::onTheOthers, Effect::onAll}) {
     SCOPED_TRACE(static_cast<int>(effect));
     const double one = takenFrom(1, 0, effect);
@@ -105,14 +105,14 @@ TEST_F_IN_EVERY_WORLD(ContactWettingOfStacks, ManyGiveWhatOneDoes) {
   }
 }
 
-TEST_F_IN_EVERY_WORLD(ContactWettingOfStacks, EachSideHasAnAreaOfItsOwn) {
+TEST_F_IN_WORLDS_WITH_FACE_CONTACTS(ContactWettingOfStacks, EachSideHasAnAreaOfItsOwn) {
   const double one = takenFrom(1, 0, Effect::onTheOne);
   EXPECT_NEAR(takenFrom(1, 1, Effect::onTheOne), one + takenFrom(0, 1, Effect::onTheOne), 0.03 * one);
   EXPECT_NEAR(takenFrom(2, 3, Effect::onTheOne), takenFrom(1, 1, Effect::onTheOne), 0.06 * one);
 }
 
 // Meshes that do not lie node on node.
-TEST_F_IN_EVERY_WORLD(ContactWettingOfStacks, ShiftedOnesGiveHardlyMoreThanOne) {
+TEST_F_IN_WORLDS_WITH_FACE_CONTACTS(ContactWettingOfStacks, ShiftedOnesGiveHardlyMoreThanOne) {
   for (const int n : {4, 7}) {
     const double one = takenFrom(1, 0, Effect::onTheOne, 0, n);
     const double three = takenFrom(3, 0, Effect::onTheOne, 0.03, n);

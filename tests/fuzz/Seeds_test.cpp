@@ -47,7 +47,7 @@ TEST(FuzzSeeds, OfStates) { runSeeds("state", fuzz::state); }
 // SmallWorld::start() gives, `state` is '\0' and the same without the 48 bytes of the envelope, and the other two are
 // the first 701 and 3001 bytes of these.
 TEST(FuzzSeeds, OfStatesAreOfTodaysFormat) {
-  if (wetcloth_test::kIsDouble) GTEST_SKIP() << "they are of float32";
+  if (wetcloth_test::kIsDouble || btGetVersion() != 324) GTEST_SKIP() << "they are of Bullet 3.24 in float32";
   fuzz::SmallWorld world;
   const std::string folder = std::string(WETCLOTH_SOURCE_DIR) + "/tests/fuzz/seeds/state/";
   EXPECT_NO_THROW(world.restore(bytesOf(folder + "stream").substr(1)));

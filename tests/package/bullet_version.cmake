@@ -7,8 +7,8 @@ fake_prefix("${prefix}")
 foreach(old IN ITEMS 288 289)
   fake_headers("${prefix}" ${old})
   string(REGEX REPLACE "^2" "2." version ${old})
-  refused("-DBULLET_ROOT=${prefix}" "-DASKED=3.23"
-          MATCHES "${prefix} is version ${version}, and it has to be 3.23 or newer. 3.23 to 3.27 are known to work")
+  refused("-DBULLET_ROOT=${prefix}" "-DASKED=3.05"
+          MATCHES "${prefix} is version ${version}, and it has to be 3.05 or newer: 3.05 to 3.26 are known to work")
 endforeach()
 
 fake_headers("${prefix}" 324)

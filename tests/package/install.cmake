@@ -4,7 +4,9 @@ include("${CMAKE_CURRENT_LIST_DIR}/package_test.cmake")
 
 set(prefix "${WORK_DIR}/prefix")
 file(REMOVE_RECURSE "${prefix}" "${INSTALLED}")
-run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --config "${CONFIG}" --prefix "${prefix}" --component library)
+foreach(component IN ITEMS library ${PRECISIONS})
+  run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --config "${CONFIG}" --prefix "${prefix}" --component ${component})
+endforeach()
 
 file(GLOB_RECURSE package_files "${prefix}/*.cmake" "${prefix}/*.pc" "${prefix}/*.h")
 foreach(file IN LISTS package_files)

@@ -197,7 +197,9 @@ TEST(ShapeFaces, WhatTwoBoxesFindIsThereOnce) {
 TEST(ShapeFaces, TerrainAndCompounds) {
   ConvexHulls hulls;
   const std::vector<btScalar> heights(25, btScalar(0.5));
-  const btHeightfieldTerrainShape terrain(5, 5, heights.data(), btScalar(0), btScalar(1), 1, false);
+  constexpr PHY_ScalarType kHeights = sizeof(btScalar) == sizeof(float) ? PHY_FLOAT : PHY_DOUBLE;
+  const btHeightfieldTerrainShape terrain(5, 5, heights.data(), btScalar(1), btScalar(0), btScalar(1), 1, kHeights,
+                                          false);
   EXPECT_FALSE(facesOf(terrain, boxAround(0.5, 0, 0.5, 0.3), hulls).faces().empty());
   btBoxShape box(btVector3(1, 1, 1));
   btCompoundShape compound;

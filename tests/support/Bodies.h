@@ -119,8 +119,9 @@ inline OwnedShape levelHeightfield() {
   OwnedShape made;
   constexpr int kPoints = 11;
   made.heights.assign(kPoints * kPoints, btScalar(0));
-  made.shape = std::make_unique<btHeightfieldTerrainShape>(kPoints, kPoints, made.heights.data(), btScalar(-1),
-                                                           btScalar(1), 1, false);
+  constexpr PHY_ScalarType kHeights = sizeof(btScalar) == sizeof(float) ? PHY_FLOAT : PHY_DOUBLE;
+  made.shape = std::make_unique<btHeightfieldTerrainShape>(kPoints, kPoints, made.heights.data(), btScalar(1),
+                                                           btScalar(-1), btScalar(1), 1, kHeights, false);
   made.shape->setLocalScaling(btVector3(btScalar(0.2), 1, btScalar(0.2)));
   made.top = 0.1;
   return made;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include "bullet_wetcloth/bullet/Versions.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/Test.h"
 
@@ -44,6 +45,10 @@ inline constexpr std::initializer_list<WorldKind> kDeformableWorlds = {WorldKind
 inline constexpr std::initializer_list<WorldKind> kEveryWorld = {WorldKind::softRigid, WorldKind::softMultiBody,
                                                                  WorldKind::deformable, WorldKind::deformableImplicit};
 
+/// Where contacts of two cloths can be looked at: the deformable worlds have them from Bullet 3.22 on.
+inline constexpr std::initializer_list<WorldKind> kWorldsWithFaceContacts =
+    wetcloth::keepsFaceContacts() ? kEveryWorld : kPositionBasedWorlds;
+
 }  // namespace wetcloth_test
 
 // Tests in some of Bullet's worlds, named as those of TEST_P are: Suite.Name/softRigid. GoogleTest's own makes a class
@@ -55,6 +60,7 @@ inline constexpr std::initializer_list<WorldKind> kEveryWorld = {WorldKind::soft
   static void suite##_##name##_Test()
 
 #define TEST_IN_EVERY_WORLD(suite, name) WETCLOTH_TEST_IN(kEveryWorld, suite, name)
+#define TEST_IN_WORLDS_WITH_FACE_CONTACTS(suite, name) WETCLOTH_TEST_IN(kWorldsWithFaceContacts, suite, name)
 #define TEST_IN_POSITION_BASED_WORLDS(suite, name) WETCLOTH_TEST_IN(kPositionBasedWorlds, suite, name)
 #define TEST_IN_DEFORMABLE_WORLDS(suite, name) WETCLOTH_TEST_IN(kDeformableWorlds, suite, name)
 
@@ -67,4 +73,5 @@ inline constexpr std::initializer_list<WorldKind> kEveryWorld = {WorldKind::soft
   void fixture##_##name::test()
 
 #define TEST_F_IN_EVERY_WORLD(fixture, name) WETCLOTH_TEST_F_IN(kEveryWorld, fixture, name)
+#define TEST_F_IN_WORLDS_WITH_FACE_CONTACTS(fixture, name) WETCLOTH_TEST_F_IN(kWorldsWithFaceContacts, fixture, name)
 #define TEST_F_IN_DEFORMABLE_WORLDS(fixture, name) WETCLOTH_TEST_F_IN(kDeformableWorlds, fixture, name)

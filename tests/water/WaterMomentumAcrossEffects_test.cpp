@@ -212,7 +212,7 @@ wetcloth::ContactWetting::Parameters betweenCloths(double rate) {
   return parameters;
 }
 
-TEST_IN_EVERY_WORLD(WaterMomentumBetweenCloths, GivenAndTakenInTheStepInWhichItArrives) {
+TEST_IN_WORLDS_WITH_FACE_CONTACTS(WaterMomentumBetweenCloths, GivenAndTakenInTheStepInWhichItArrives) {
   for (const bool hasFirst : {true, false}) {
     TwoCloths two(GetParam());
     Vector arrived = {0, 0, 0};
@@ -237,7 +237,7 @@ TEST_IN_EVERY_WORLD(WaterMomentumBetweenCloths, GivenAndTakenInTheStepInWhichItA
 }
 
 // All that moves water or shares momentum inside of the cloths and between them; nothing leaves them.
-TEST_IN_EVERY_WORLD(WaterMomentumBetweenCloths, StepsOfAnyLength) {
+TEST_IN_WORLDS_WITH_FACE_CONTACTS(WaterMomentumBetweenCloths, StepsOfAnyLength) {
   TwoCloths two(GetParam());
   const btVector3 rain(1, -9, 2);
   for (wetcloth::WetCloth* cloth : {two.first, two.second}) {
@@ -264,7 +264,7 @@ TEST_IN_EVERY_WORLD(WaterMomentumBetweenCloths, StepsOfAnyLength) {
 }
 
 // What came after a cloth's turn is committed in the same step, so that nothing is left to be lost when it is cut.
-TEST_IN_EVERY_WORLD(WaterMomentumBetweenCloths, ACutAfterTheStepFindsNothingPending) {
+TEST_IN_WORLDS_WITH_FACE_CONTACTS(WaterMomentumBetweenCloths, ACutAfterTheStepFindsNothingPending) {
   TwoCloths two(GetParam());
   two.wet().setLog({});
   two.second->setSaturation(0.5);
