@@ -40,6 +40,18 @@ btVector3 turned(const btVector3& axis, const btVector3& side, double angle) {
 
 btVector3 horizontal(const btVector3& v, const btVector3& down) { return v - down * v.dot(down); }
 
+// What is due in drops of this mass, or, where these would be more than anybody tells apart, of a larger one.
+struct Portions {
+  static constexpr int kMost = 10000;
+  Portions(double due, double drop) {
+    const double drops = std::floor(due / drop);
+    count = static_cast<int>(std::min<double>(drops, kMost));
+    mass = drops > kMost ? due / kMost : drop;
+  }
+  int count;
+  double mass;  // of each [kg]
+};
+
 bool isValid(const Pour& pour) {
   try {
     requireValid("pour", pour);
@@ -52,6 +64,13 @@ bool isValid(const Pour& pour) {
 bool isFinitePose(const btTransform& pose) {
   const btMatrix3x3& basis = pose.getBasis();
   return std::isfinite(pose.getOrigin().length2() + basis[0].length2() + basis[1].length2() + basis[2].length2());
+}
+
+void transferAmount(StateArchive& archive, double& water) {
+  double amount = water;
+  archive.local(amount);
+  if (archive.isChecking() && !(amount >= 0 && std::isfinite(amount))) archive.fail("a spout's water is no amount");
+  if (archive.isRestoring()) water = amount;
 }
 
 // Where the n-th drop leaves a spout, and with which velocity.
@@ -124,11 +143,12 @@ void Spouts::run(RunningPour& running, const Substep& substep, const Give& give)
     if (!isValid(pour)) return;
   }
   if (!(pour.flow > 0)) return;
-  const double mass = dropMass(pour.dropDiameter, substep.waterDensity);
   const double before = running.due;
   running.due += pour.flow * (end - begin);
-  for (int k = 1; running.due >= mass; ++k) {
-    running.due -= mass;
+  const Portions portions(running.due, dropMass(pour.dropDiameter, substep.waterDensity));
+  const double mass = portions.mass;
+  for (int k = 1; k <= portions.count; ++k) {
+    running.due = std::max(0.0, running.due - mass);
     const double leaves = begin + std::max(0.0, (k * mass - before) / pour.flow);
     btVector3 place, velocity;
     wetcloth::begin(pour, running.drops++, place, velocity);
@@ -156,8 +176,9 @@ void Spouts::run(RunningGlass& running, const Substep& substep, const Give& give
     running.water -= leaves;
     running.due += leaves;
   }
-  const double mass = dropMass(glass.dropDiameter, substep.waterDensity);
-  const int count = static_cast<int>(running.due / mass);
+  const Portions portions(running.due, dropMass(glass.dropDiameter, substep.waterDensity));
+  const double mass = portions.mass;
+  const int count = portions.count;
   if (count == 0) return;
 
   const btVector3 fall = down - axis * axis.dot(down);
@@ -173,7 +194,7 @@ void Spouts::run(RunningGlass& running, const Substep& substep, const Give& give
   const btVector3 velocity = motion + ahead * static_cast<btScalar>(std::sqrt(2 * static_cast<double>(gravity) * head));
   const btVector3 sideways = ahead.cross(down) * static_cast<btScalar>(0.4 * glass.radius);
   for (int k = 0; k < count; ++k) {
-    running.due -= mass;
+    running.due = std::max(0.0, running.due - mass);
     const btScalar side = static_cast<btScalar>(2 * spread(running.drops, 0) - 1);
     const btScalar forward = static_cast<btScalar>(glass.dropDiameter * (0.5 + spread(running.drops, 1)));
     ++running.drops;
@@ -185,9 +206,14 @@ void Spouts::run(RunningGlass& running, const Substep& substep, const Give& give
 void Spouts::transferState(StateArchive& archive) {
   archive.expect(m_pours.size(), "the number of spouts");
   archive.expect(m_glasses.size(), "the number of glasses");
-  for (RunningPour& running : m_pours) archive.value(running.due, running.drops);
+  for (RunningPour& running : m_pours) {
+    transferAmount(archive, running.due);
+    archive.value(running.drops);
+  }
   for (RunningGlass& running : m_glasses) {
-    archive.value(running.water, running.due, running.drops);
+    transferAmount(archive, running.water);
+    transferAmount(archive, running.due);
+    archive.value(running.drops);
     archive.value(running.last);
     archive.value(running.hasPose);
   }

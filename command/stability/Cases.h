@@ -16,5 +16,6 @@ std::vector<HardCase> springCases();
 std::vector<HardCase> cubicCases();
 std::vector<HardCase> guardCases();
 std::vector<HardCase> laundryCases();
+std::vector<HardCase> dropCases();
 
 }  // namespace stability

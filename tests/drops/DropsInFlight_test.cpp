@@ -203,6 +203,19 @@ TEST(DropsInFlight, AGlassGivesWhatIsOverItsRim) {
   for (std::size_t i = 0; i < scene.drops.size(); ++i) EXPECT_GT(double(scene.drops[i].position.x()), 3.05);
 }
 
+// More than anybody tells apart comes in larger drops.
+TEST(DropsInFlight, AFlowWithoutMeasureEndsTheStepAllTheSame) {
+  DropsScene scene;
+  Pour pour;
+  pour.position = btVector3(3, 2, 0);
+  pour.flow = 1e9;
+  scene.drops.add(pour);
+  scene.step(3);
+  const wetcloth::WorldLedger ledger = scene.drops.ledger();
+  EXPECT_NEAR(ledger.brought, 1e9 * 2 * kSubstep, 1e-9 * ledger.brought);
+  EXPECT_NEAR(ledger.imbalance(), 0, kLedger * ledger.brought);
+}
+
 TEST(DropsInFlight, WhatAFunctionThrowsEndsTheSpoutWithAMessage) {
   DropsScene scene;
   std::string said;
