@@ -2,6 +2,7 @@
 #include "bullet_wetcloth/WetClothWorld.h"
 
 #include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/WorldPart.h"
 #include "bullet_wetcloth/bullet/SubstepHook.h"
 #include "bullet_wetcloth/bullet/Versions.h"
 #include "bullet_wetcloth/solver/ClothSolver.h"
@@ -78,10 +79,19 @@ WetClothWorld::WetClothWorld(btDynamicsWorld& world, Hook hook, const Layout& ca
 }
 
 WetClothWorld::~WetClothWorld() {
+  leavePart();
   if (!m_cloths.empty()) detach();
 }
 
+void WetClothWorld::leavePart() {
+  if (!m_part) return;
+  for (const auto& cloth : m_cloths) m_part->forget(*cloth);
+  m_part->m_world = nullptr;
+  m_part = nullptr;
+}
+
 void WetClothWorld::detach() {
+  leavePart();
   for (const auto& cloth : m_cloths) {
     if (isInWorld(cloth->m_body) && cloth->isOfThisBody()) cloth->m_effects.clear();
   }
@@ -129,6 +139,7 @@ WetCloth& WetClothWorld::add(btSoftBody& body, std::vector<Fabric> fabrics, std:
   }
   m_cloths.push_back(std::unique_ptr<WetCloth>(
       new WetCloth(*this, body, std::move(fabrics), std::move(fabricOfNode), isDeformable(m_world))));
+  if (m_part) m_part->follow(*m_cloths.back());
   return *m_cloths.back();
 }
 
@@ -147,6 +158,7 @@ void WetClothWorld::remove(btSoftBody& body) {
   const auto position = std::find_if(m_cloths.begin(), m_cloths.end(), wraps);
   if (position == m_cloths.end()) reject("body", "was not added to this WetClothWorld");
   noticeDeletion(**position);
+  if (m_part) m_part->forget(**position);
   if (!isInWorld(body) || (*position)->isOfThisBody()) (*position)->m_effects.clear();
   m_cloths.erase(position);
   shareTick();
@@ -154,6 +166,7 @@ void WetClothWorld::remove(btSoftBody& body) {
 
 // Whose body is gone: there is nothing to give back.
 void WetClothWorld::forget(const WetCloth& cloth) {
+  if (m_part) m_part->forget(cloth);
   const auto isIt = [&](const std::unique_ptr<WetCloth>& other) { return other.get() == &cloth; };
   m_cloths.erase(std::find_if(m_cloths.begin(), m_cloths.end(), isIt));
   shareTick();
@@ -170,6 +183,8 @@ WetCloth* WetClothWorld::find(const btSoftBody& body) {
   return const_cast<WetCloth*>(static_cast<const WetClothWorld*>(this)->find(body));
 }
 
+BodyFilms* WetClothWorld::films() const { return m_part ? m_part->films() : nullptr; }
+
 bool WetClothWorld::isHooked() const {
   return m_hook == Hook::preTick && m_substepHook && m_substepHook->isInPlace(SubstepHook::Slot::preTick);
 }
@@ -185,6 +200,7 @@ void WetClothWorld::preTick(btScalar dt) {
   for (const auto& cloth : m_cloths) {
     if (noticePresence(*cloth)) cloth->step(stepOf(cloth->m_body, dt, m_time));
   }
+  if (m_part) m_part->step(static_cast<double>(dt), m_time);
   for (const auto& cloth : m_cloths) {
     if (!cloth->m_wasPresent) continue;
     cloth->commitExchange();
@@ -307,6 +323,8 @@ void WetClothWorld::transferState(StateArchive& archive) {
     archive.expect(softBodies().findLinearSearch(&cloth->m_body), "a cloth's place among the world's soft bodies");
     cloth->transferState(archive);
   }
+  archive.expect(m_part != nullptr, "whether there are drops");
+  if (m_part) archive.section("the drops", [&] { m_part->transferState(archive); });
 }
 
 void WetClothWorld::transferSolver(StateArchive& archive) const {

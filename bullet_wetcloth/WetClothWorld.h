@@ -17,7 +17,9 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
+class BodyFilms;
 class SubstepHook;
+class WorldPart;
 
 /// How a WetClothWorld gets its turn in each substep.
 enum class Hook {
@@ -119,6 +121,9 @@ class WETCLOTH_EXPORT WetClothWorld {
   /// precision or world), and then nothing has changed.
   void restore(std::istream& stream);
 
+  /// Films of water on rigid bodies, which ContactWetting takes from: null where nobody puts any there (Drops does).
+  BodyFilms* films() const;
+
   /// Simulated time [s]: the sum of the substeps that the cloths have had. It starts at 0 and goes on, after a
   /// restore(), from the time that was saved.
   double time() const { return m_time; }
@@ -131,6 +136,7 @@ class WETCLOTH_EXPORT WetClothWorld {
 
  private:
   friend class WetCloth;
+  friend class WorldPart;
   WetClothWorld(btDynamicsWorld& world, Hook hook, const Layout& caller);
   void shareTick();
   void transferState(StateArchive& archive);
@@ -143,11 +149,13 @@ class WETCLOTH_EXPORT WetClothWorld {
   double fallShareOf(const btSoftBody& body, btScalar dt) const;
   void warnOfMissingGravity(const btSoftBody& body) const;
   void forget(const WetCloth& cloth);
+  void leavePart();
 
   btDynamicsWorld& m_world;
   Hook m_hook;
   std::unique_ptr<SubstepHook> m_substepHook;  // null once detached, or the world was seen to be gone
   std::vector<std::unique_ptr<WetCloth>> m_cloths;
+  WorldPart* m_part = nullptr;
   std::function<void(const std::string&)> m_log;
   double m_time = 0;
   double m_stepStart = 0;  // of the substep that runs [s]

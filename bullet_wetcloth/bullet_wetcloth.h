@@ -9,6 +9,8 @@
 #include "bullet_wetcloth/WetClothWorld.h"
 #include "bullet_wetcloth/drawing/DebugDraw.h"
 #include "bullet_wetcloth/drawing/VertexBuffer.h"
+#include "bullet_wetcloth/drops/Drops.h"
+#include "bullet_wetcloth/drops/Pour.h"
 #include "bullet_wetcloth/effects/Absorption.h"
 #include "bullet_wetcloth/effects/Adjust.h"
 #include "bullet_wetcloth/effects/Cling.h"

@@ -37,6 +37,15 @@ class WetFriction;
 class WetStiffness;
 class Wind;
 
+class Drops;
+class WorldPart;
+struct Drop;
+struct DropAir;
+struct Glass;
+struct Landing;
+struct Pour;
+struct WorldLedger;
+
 class Exposure;
 class WindField;
 struct WaterSurface;

@@ -123,6 +123,38 @@ TEST_IN_EVERY_WORLD(NoAllocation, InFillingAVertexBuffer) {
   EXPECT_GT(floats.back(), 0);
 }
 
+// Drops that are poured, fly, land on the cloth and on a box below it, run off and merge; after a second, in which the
+// box gets its first film.
+TEST_IN_EVERY_WORLD(NoAllocation, ByDropsThatFlyAndLand) {
+  if (!WETCLOTH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer owns operator new";
+  BodyScene scene(GetParam(), hangingPatch(10));
+  RigidBody floor(scene.bullet(), box(2, 0.1, 2), 0, btVector3(0, -2, 0));
+  wetcloth::WetClothWorld wet(scene.world(), wetcloth::Hook::manual);
+  wetcloth::WetCloth& cloth = wet.add(scene.body());
+  cloth.add<wetcloth::Dripping>();
+  cloth.setSaturation(0.9);
+  wetcloth::Drops::Parameters parameters;
+  parameters.mostDrops = 300;
+  wetcloth::Drops drops(wet, parameters);
+  wetcloth::Pour pour;
+  pour.position = btVector3(btScalar(0.5), btScalar(0.5), 1);
+  pour.velocity = btVector3(0, 1, -3);
+  pour.halfAngle = 0.5;
+  pour.flow = 0.1;
+  drops.add(pour);
+  const btScalar dt = btScalar(1) / 240;
+  for (int step = 0; step < 480; ++step) {
+    const long long allocations = allocationsIn([&] { wet.preTick(dt); });
+    if (step >= 240) {
+      ASSERT_EQ(allocations, 0) << "in step " << step;
+    }
+    scene.world().stepSimulation(dt, 0);
+  }
+  EXPECT_GT(drops.landedOnCloth(), 100);
+  EXPECT_GT(drops.merged(), 0);
+  EXPECT_GT(drops.ledger().films, 0);
+}
+
 TEST_IN_EVERY_WORLD(NoAllocation, ByAClothOfSeveralFabrics) {
   if (!WETCLOTH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer owns operator new";
   BodyScene scene(GetParam(), hangingPatch(10));

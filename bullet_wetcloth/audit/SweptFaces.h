@@ -89,7 +89,14 @@ class SweptFaces {
   bool visitSelf(const Visit& visit) const {
     return m_tree.empty() || visitSelf(0, visit);
   }
-  /// The same for a patch of this body and one of another.
+  /// Calls visit(patch) for each patch of which the box overlaps this one.
+  template <class Visit>
+  void visitNear(const SweptBox& box, const Visit& visit) const {
+    if (!m_tree.empty()) visitNear(0, box, visit);
+  }
+  /// Round all that is finite; empty where nothing is. Good after refit().
+  SweptBox bounds() const { return m_tree.empty() ? SweptBox() : m_tree[0].box; }
+  /// visitSelf() for a patch of this body and one of another.
   template <class Visit>
   bool visitPairs(const SweptFaces& other, const Visit& visit) const {
     return m_tree.empty() || other.m_tree.empty() || visitPairs(0, other, 0, visit);
@@ -112,6 +119,17 @@ class SweptFaces {
   SweptBox boxOfPatch(const Patch& patch) const;
   const TreeNode& at(int index) const { return m_tree[static_cast<std::size_t>(index)]; }
 
+  template <class Visit>
+  void visitNear(int index, const SweptBox& box, const Visit& visit) const {
+    const TreeNode& node = at(index);
+    if (!node.box.overlaps(box)) return;
+    if (node.isLeaf()) {
+      visit(node.firstPatch);
+      return;
+    }
+    visitNear(index + 1, box, visit);
+    visitNear(node.right, box, visit);
+  }
   template <class Visit>
   bool visitSelf(int index, const Visit& visit) const {
     const TreeNode& node = at(index);

@@ -8,6 +8,7 @@
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/numerics/ContactArea.h"
 #include "bullet_wetcloth/state/StateArchive.h"
+#include "bullet_wetcloth/water/BodyFilms.h"
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -165,7 +166,8 @@ void ContactWetting::attach(WetCloth& cloth) {
 }
 
 void ContactWetting::apply(WetCloth& cloth, const Step& step) {
-  if (!m_parameters.wetBodies.empty()) takeFromFilms(cloth, step);
+  if (!m_parameters.wetBodies.empty()) takeFromOwnFilms(cloth, step);
+  takeFromLandedDrops(cloth, step);
   if (!m_parameters.cloths) return;
   visitPartners(cloth, [&](WetCloth& other) {
     if (isSeenToBy(cloth, other)) return;
@@ -176,14 +178,36 @@ void ContactWetting::apply(WetCloth& cloth, const Step& step) {
   if (!cloth.isInDeformableWorld()) exchange(cloth, cloth, step);
 }
 
+void ContactWetting::takeFromOwnFilms(WetCloth& cloth, const Step& step) {
+  takeFromFilms(
+      cloth, step, [&](const RigidContact& contact, int /*node*/) { return filmOn(contact.object); },
+      [](double /*taken*/) {});
+}
+
+void ContactWetting::takeFromLandedDrops(WetCloth& cloth, const Step& step) {
+  BodyFilms* const films = cloth.world().films();
+  if (!films || films->empty() || !m_whyNoRigidContacts.empty()) return;
+  const btScalar margin = cloth.body().getCollisionShape()->getMargin();
+  // Where the node's contact is on the body: the film is there.
+  const auto filmAt = [&](const RigidContact& contact, int node) {
+    const btScalar height = static_cast<btScalar>(contact.gap) + margin;
+    return films->find(*contact.object, cloth.body().m_nodes[node].m_x - contact.normal * height);
+  };
+  takeFromFilms(cloth, step, filmAt, [&](double taken) { films->took(taken); });
+}
+
 // Contacts with bodies that have water. A cloth whose nodes and triangles both collide lists what touches twice.
-template <class Visit>
-void ContactWetting::visitFilms(WetCloth& cloth, Visit visitor) {
+template <class FilmAt, class Visit>
+void ContactWetting::visitFilms(WetCloth& cloth, const FilmAt& filmAt, Visit visitor) {
   RigidContacts(cloth.body(), cloth.world().world(), cloth.isInDeformableWorld())
       .visit([&](const RigidContact& contact) {
         if (contact.face >= 0 && m_hasNodeContacts) return;
-        const double* const film = filmOn(contact.object);
-        if (film && *film > 0 && !isGone(cloth, contact)) visitor(contact);
+        bool isWet = false;
+        for (int k = 0; k < contact.point.count; ++k) {
+          const double* const film = filmAt(contact, contact.point.nodes[static_cast<std::size_t>(k)]);
+          isWet = isWet || (film && *film > 0);
+        }
+        if (isWet && !isGone(cloth, contact)) visitor(contact);
       });
 }
 
@@ -192,31 +216,38 @@ int& ContactWetting::contactsWith(const RigidContact& contact) {
   return m_contactsOfNode[static_cast<std::size_t>(contact.point.nodes[0])];
 }
 
-void ContactWetting::takeFromFilms(WetCloth& cloth, const Step& step) {
-  visitFilms(cloth, [&](const RigidContact& contact) { contactsWith(contact) = 0; });
-  visitFilms(cloth, [&](const RigidContact& contact) { ++contactsWith(contact); });
-  visitFilms(cloth, [&](const RigidContact& contact) { takeFromFilm(cloth, step, contact); });
+template <class FilmAt, class Took>
+void ContactWetting::takeFromFilms(WetCloth& cloth, const Step& step, const FilmAt& filmAt, const Took& took) {
+  visitFilms(cloth, filmAt, [&](const RigidContact& contact) { contactsWith(contact) = 0; });
+  visitFilms(cloth, filmAt, [&](const RigidContact& contact) { ++contactsWith(contact); });
+  visitFilms(cloth, filmAt, [&](const RigidContact& contact) {
+    for (int k = 0; k < contact.point.count; ++k) {
+      double* const film = filmAt(contact, contact.point.nodes[static_cast<std::size_t>(k)]);
+      if (film) took(takeFromFilm(cloth, step, contact, k, *film));
+    }
+  });
 }
 
-void ContactWetting::takeFromFilm(WetCloth& cloth, const Step& step, const RigidContact& contact) {
-  double* const film = filmOn(contact.object);
+double ContactWetting::takeFromFilm(WetCloth& cloth, const Step& step, const RigidContact& contact, int corner,
+                                    double& film) {
+  const int node = contact.point.nodes[static_cast<std::size_t>(corner)];
+  const std::size_t i = static_cast<std::size_t>(node);
   Water& water = cloth.water();
-  for (int k = 0; k < contact.point.count; ++k) {
-    const int node = contact.point.nodes[static_cast<std::size_t>(k)];
-    const std::size_t i = static_cast<std::size_t>(node);
-    const double whole = contact.face < 0 ? areaOf(cloth, node)
-                                          : cloth.restMesh().triangles()[static_cast<std::size_t>(contact.face)].area;
-    const double area = whole / contactsWith(contact);
-    const double conductance = m_parameters.rate * area * contact.point.weights[static_cast<std::size_t>(k)] * step.dt;
-    const double uptake = filmUptake(water.held(i), water.capacity(i), conductance, *film);
-    const double taken = fitting(water, i, uptake);
-    if (!(taken > 0)) continue;
-    const btVector3 velocity = velocityOf(*contact.object, cloth.body().m_nodes[node].m_x);
-    const double before = water.held(i);
-    water.absorb(i, taken, velocity.x(), velocity.y(), velocity.z());
-    *film = std::max(0.0, *film - (water.held(i) - before));
-    ++m_nodesVisited;
-  }
+  const double whole = contact.face < 0 ? areaOf(cloth, node)
+                                        : cloth.restMesh().triangles()[static_cast<std::size_t>(contact.face)].area;
+  const double area = whole / contactsWith(contact);
+  const double conductance =
+      m_parameters.rate * area * contact.point.weights[static_cast<std::size_t>(corner)] * step.dt;
+  const double uptake = filmUptake(water.held(i), water.capacity(i), conductance, film);
+  const double wanted = fitting(water, i, uptake);
+  if (!(wanted > 0)) return 0;
+  const btVector3 velocity = velocityOf(*contact.object, cloth.body().m_nodes[node].m_x);
+  const double before = water.held(i);
+  water.absorb(i, wanted, velocity.x(), velocity.y(), velocity.z());
+  const double taken = std::min(film, water.held(i) - before);
+  film -= taken;
+  ++m_nodesVisited;
+  return taken;
 }
 
 // Whether the other cloth has the effect, too, and was added first.

@@ -43,6 +43,9 @@ WETCLOTH_EXPORT double equalisingFlow(double difference, double responseA, doubl
 /// Where the guard of a ClothSolver keeps cloths apart, its contacts take the place of Bullet's (docs/guard.md), and
 /// there are those of a cloth with itself, too: water that goes from layer to layer counts as dripped and as absorbed.
 ///
+/// Where drops fly (Drops), a cloth takes up what landed on the bodies that it touches, too, each node what is where it
+/// touches. A body needs not to be among `wetBodies` for that.
+///
 /// One of two cloths needs the effect. If both have it, the one that was added to the WetClothWorld first sees to the
 /// pair. Contacts are those of the last substep; of a sleeping cloth those of when it fell asleep, but for a rigid body
 /// that has been moved since. The first step in which another cloth is met may allocate.
@@ -93,11 +96,14 @@ class WETCLOTH_EXPORT ContactWetting : public Effect {
  private:
   void requireContacts(const Parameters& parameters) const;
   double* filmOn(const btCollisionObject* body);
-  template <class Visit>
-  void visitFilms(WetCloth& cloth, Visit visitor);
+  void takeFromOwnFilms(WetCloth& cloth, const Step& step);
+  void takeFromLandedDrops(WetCloth& cloth, const Step& step);
+  template <class FilmAt, class Visit>
+  void visitFilms(WetCloth& cloth, const FilmAt& filmAt, Visit visitor);
   int& contactsWith(const RigidContact& contact);
-  void takeFromFilms(WetCloth& cloth, const Step& step);
-  void takeFromFilm(WetCloth& cloth, const Step& step, const RigidContact& contact);
+  template <class FilmAt, class Took>
+  void takeFromFilms(WetCloth& cloth, const Step& step, const FilmAt& filmAt, const Took& took);
+  double takeFromFilm(WetCloth& cloth, const Step& step, const RigidContact& contact, int corner, double& film);
   bool isSeenToBy(const WetCloth& cloth, const WetCloth& other) const;
   void exchange(WetCloth& nodesOf, WetCloth& facesOf, const Step& step);
   void exchange(WetCloth& nodesOf, WetCloth& facesOf, const FaceContact& contact, double conductance);

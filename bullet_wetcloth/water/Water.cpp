@@ -46,6 +46,7 @@ void Water::runOff(std::size_t node, double mass, double vx, double vy, double v
   arrival.momentum[1] += mass * vy;
   arrival.momentum[2] += mass * vz;
   m_runOff.add(mass);
+  if (m_keepsShed) shed(node, mass);
   m_movedSinceCommit = true;  // no revision: the water is as it was
 }
 
@@ -100,6 +101,11 @@ double Water::take(std::size_t node, double mass, CompensatedSum& account) {
   return left;
 }
 
+void Water::keepShed(bool keeps) {
+  m_keepsShed = keeps;
+  m_shed.resize(keeps ? m_held.size() : 0, 0);
+}
+
 void Water::joinArrival(std::size_t node) {
   const double shifted = m_arrivals[node].shifted + m_arrivals[node].mass;
   m_arrivals[node] = Arrival();
@@ -123,7 +129,7 @@ void Water::reset(std::vector<double> dryMass, const std::vector<double>& capaci
   setCapacities();
   m_held.assign(m_dryMass.size(), 0);
   m_arrivals.assign(m_dryMass.size(), Arrival());
-  m_initial = m_absorbed = m_dripped = m_evaporated = m_runOff = CompensatedSum();
+  m_initial = m_absorbed = m_dripped = m_evaporated = m_runOff = m_handedOver = CompensatedSum();
   m_newlyAbsorbed.fill(0);
   markMoved();
   m_movedSinceCommit = m_leftSinceCommit = false;
@@ -160,9 +166,18 @@ void Water::replaceNodes(std::vector<double> dryMass, std::vector<double> held, 
   setCapacities();
   m_held = std::move(held);
   m_arrivals.assign(m_held.size(), Arrival());
+  keepShedOfGoneNodes();
   ++m_revision;
   // A dry cloth's masses are as the application left them.
   m_movedSinceCommit = m_movedSinceCommit || compensatedSum(m_held) > 0;
+}
+
+// It is some other node's to let go of.
+void Water::keepShedOfGoneNodes() {
+  if (!m_keepsShed) return;
+  for (std::size_t i = m_held.size(); i < m_shed.size(); ++i) m_shed[0] += m_shed[i];
+  m_shed.resize(m_held.size(), 0);
+  m_hasShedMore = true;
 }
 
 void Water::transferState(StateArchive& archive) {
@@ -181,7 +196,11 @@ void Water::transferState(StateArchive& archive) {
   if (archive.isRestoring()) setCapacities();
   archive.value(m_movedWithin);
   for (double& part : m_newlyAbsorbed) archive.value(part);
-  for (auto* sum : {&m_initial, &m_absorbed, &m_dripped, &m_evaporated, &m_runOff}) sum->transferState(archive);
+  for (auto* sum : {&m_initial, &m_absorbed, &m_dripped, &m_evaporated, &m_runOff, &m_handedOver})
+    sum->transferState(archive);
+  archive.expect(m_keepsShed, "whether what leaves a cloth is followed");
+  archive.array(m_shed);
+  archive.value(m_hasShedMore);
   archive.value(m_revision, m_movedSinceCommit, m_leftSinceCommit);
 }
 

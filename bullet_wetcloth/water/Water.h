@@ -125,13 +125,18 @@ class WETCLOTH_EXPORT Water {
   /// inelastic impact, and goes away with the node's velocity. `mass` must be finite and >= 0.
   void runOff(std::size_t node, double mass, double vx, double vy, double vz);
   /// Liquid that leaves at the node's own velocity; at most what is held. Returns what left.
-  double drip(std::size_t node, double mass) { return take(node, mass, m_dripped); }
+  double drip(std::size_t node, double mass) {
+    const double left = take(node, mass, m_dripped);
+    if (keepsShed() && left > 0) shed(node, left);
+    return left;
+  }
   /// Liquid that another cloth takes in this step, at most what is held; returns what left. It is booked as dripped.
   /// It leaves with the velocity that the node has now, and at once: water that arrives later in the step meets a node
   /// without it. Call WetCloth::joinArrivals() before.
   double handOver(std::size_t node, double mass) {
-    const double left = drip(node, mass);
+    const double left = take(node, mass, m_dripped);
     m_arrivals[node].shifted -= left;
+    m_handedOver.add(left);
     return left;
   }
   /// Vapour that leaves at the node's own velocity; at most what is held. Returns what left.
@@ -145,6 +150,26 @@ class WETCLOTH_EXPORT Water {
   /// WetCloth::joinArrivals() before, since what has not joined its node yet would not move on, and give the nodes
   /// their new velocities with WetCloth::push().
   void redistribute(const std::vector<double>& held);
+
+  // --- for who follows the water that leaves ------------------------------------------------------------------
+
+  /// Whether from now on, what drips from a node or runs off it stays there as shed() until it is taken. It is no
+  /// longer water of the cloth, and has no weight. What is there when nothing is to be kept any more is forgotten.
+  void keepShed(bool keeps);
+  /// Whether it does.
+  bool keepsShed() const { return m_keepsShed; }
+  /// What left the node as liquid and was not taken yet [kg]; only while it is kept.
+  double shed(std::size_t node) const { return m_shed[node]; }
+  /// Takes it.
+  void takeShed(std::size_t node) { m_shed[node] = 0; }
+  /// At all nodes [kg].
+  double totalShed() const { return compensatedSum(m_shed); }
+  /// Whether a node has shed something since clearShedMore().
+  bool hasShedMore() const { return m_hasShedMore; }
+  /// Says that all of it was seen.
+  void clearShedMore() { m_hasShedMore = false; }
+  /// What other cloths took by handOver() so far [kg].
+  double handedOver() const { return m_handedOver.value(); }
 
   // --- for the commit ---------------------------------------------------------------------------------------
 
@@ -194,7 +219,12 @@ class WETCLOTH_EXPORT Water {
 
   void sumDryMasses();
   void setCapacities();
+  void keepShedOfGoneNodes();
   double take(std::size_t node, double mass, CompensatedSum& account);
+  void shed(std::size_t node, double mass) {
+    m_shed[node] += mass;
+    m_hasShedMore = true;
+  }
   void markMoved() {
     m_movedSinceCommit = true;
     ++m_revision;
@@ -213,9 +243,13 @@ class WETCLOTH_EXPORT Water {
   CompensatedSum m_dripped;
   CompensatedSum m_evaporated;
   CompensatedSum m_runOff;
+  CompensatedSum m_handedOver;
+  std::vector<double> m_shed;  // of each node, once it is kept [kg]
   unsigned long long m_revision = 0;
   bool m_movedSinceCommit = false;
   bool m_leftSinceCommit = false;
+  bool m_keepsShed = false;
+  bool m_hasShedMore = false;
 };
 
 }  // namespace WETCLOTH_PRECISION

@@ -46,12 +46,14 @@ CostWorld CostWorld::idle(const Scene& scene) {
   Scene bare = leaveOut(scene, [](const EffectScene&) { return true; });
   for (ClothScene& cloth : bare.cloths) cloth.makeDry();
   leaveOutGuard(bare);
+  bare.drops.reset();
   return CostWorld(bare, SceneWorld::Kind::wet);
 }
 
 CostWorld CostWorld::timed(const Scene& scene, const std::string& without) {
   Scene rest = leaveOut(scene, [&](const EffectScene& effect) { return effect.key == without; });
   if (without == guard) leaveOutGuard(rest);
+  if (without == drops) rest.drops.reset();
   CostWorld world(rest, SceneWorld::Kind::wet);
   auto stopwatch = std::make_unique<Stopwatch>();
   world.m_stopwatch = stopwatch.get();
@@ -76,6 +78,7 @@ std::vector<std::string> effectNames(const SceneWorld& world) {
   }
   const wetcloth::ClothSolver* const solver = world.clothSolver();
   if (solver != nullptr && solver->parameters().guard) names.emplace_back(CostWorld::guard);
+  if (world.drops() != nullptr) names.emplace_back(CostWorld::drops);
   return names;
 }
 

@@ -24,7 +24,9 @@ class CostWorld {
   static CostWorld idle(const Scene& scene);
   /// The name of the solver's guard beside those of the effects.
   static constexpr const char* guard = "guard";
-  /// With all effects and the guard but the one of this name, if it has a name, and a stopwatch.
+  /// And that of the drops.
+  static constexpr const char* drops = "drops";
+  /// With all effects, the guard and the drops but the one of this name, if it has a name, and a stopwatch.
   static CostWorld timed(const Scene& scene, const std::string& without = "");
 
   const SceneWorld& world() const { return *m_world; }
@@ -42,7 +44,7 @@ class CostWorld {
 };
 
 /// The names of a world's effects as a scene spells them, "hooke_springs", each once, in the order of the step; last,
-/// where the solver has one, its guard.
+/// where the solver has one, its guard, and where the scene has them, its drops.
 std::vector<std::string> effectNames(const SceneWorld& world);
 
 }  // namespace command

@@ -194,6 +194,16 @@ void takeStretch(const btSoftBody& body, const ClothShape& shape, const std::vec
   }
 }
 
+void takeDrops(const SceneWorld& world, double time, pictures::Frame& frame) {
+  frame.drops.clear();
+  if (world.drops() == nullptr) return;
+  std::vector<float> spheres(4 * world.drops()->size());
+  world.drops()->writeSpheres(spheres.data(), time);
+  for (std::size_t i = 0; i < spheres.size(); i += 4) {
+    frame.drops.push_back({{spheres[i], spheres[i + 1], spheres[i + 2]}, spheres[i + 3]});
+  }
+}
+
 }  // namespace
 
 FrameSampler::FrameSampler(const SceneWorld& world) : m_scenery(sceneryOf(world.scene())) {
@@ -208,10 +218,7 @@ void FrameSampler::take(const SceneWorld& world, double time, pictures::Frame& f
   frame.time = time;
   frame.poses = posesOf(world.scene(), time);
   frame.wetness = wetnessOf(world);
-  frame.drops.clear();
-  for (const FallingDrop& drop : world.drops().at(time)) {
-    frame.drops.push_back({plain(drop.position), static_cast<float>(drop.radius)});
-  }
+  takeDrops(world, time, frame);
   frame.cloths.resize(m_cloths.size());
   for (std::size_t i = 0; i < m_cloths.size(); ++i) {
     ClothState& state = frame.cloths[i];

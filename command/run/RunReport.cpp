@@ -48,6 +48,7 @@ RunReport::RunReport(const SceneWorld& world, const RunTimes& times, const DripR
   for (const auto& springs : world.springs()) {
     if (springs) m_springs.push_back(springs->stiffness);
   }
+  if (world.drops() != nullptr) m_drops = world.drops()->ledger();
   askSolver(world);
 }
 
@@ -121,6 +122,13 @@ nlohmann::ordered_json RunReport::json() const {
   json["ledger"] = {{"initial", m_ledger.initial}, {"absorbed", m_ledger.absorbed}, {"evaporated", m_ledger.evaporated},
                     {"dripped", m_ledger.dripped}, {"held", m_ledger.held},         {"run_off", m_ledger.runOff}};
   if (m_drips.isOn()) json["drips"] = m_drips.json();
+  if (m_drops) {
+    json["drops"] = {{"initial", m_drops->initial},       {"absorbed", m_drops->absorbed},
+                     {"brought", m_drops->brought},       {"held", m_drops->held},
+                     {"in_flight", m_drops->inFlight},    {"films", m_drops->films},
+                     {"evaporated", m_drops->evaporated}, {"left", m_drops->left},
+                     {"imbalance", m_drops->imbalance()}};
+  }
   json["saturation"] = {{"min", m_saturation.min}, {"mean", m_saturation.mean}, {"max", m_saturation.max}};
   if (m_audit) {
     json["audit"] = {{"vertex_face", m_audit->vertexFace},
@@ -173,6 +181,12 @@ std::string RunReport::waterLines() const {
                 "water", tenthsOfGrams(m_ledger.held), tenthsOfGrams(m_ledger.initial),
                 tenthsOfGrams(m_ledger.absorbed), tenthsOfGrams(m_ledger.dripped), tenthsOfGrams(m_ledger.evaporated));
   std::string lines = text + m_drips.line();
+  if (m_drops) {
+    std::snprintf(text, sizeof text, "%-15s%.1f g brought; %.1f g in flight, %.1f g on bodies, %.1f g left\n", "drops",
+                  tenthsOfGrams(m_drops->brought), tenthsOfGrams(m_drops->inFlight), tenthsOfGrams(m_drops->films),
+                  tenthsOfGrams(m_drops->left));
+    lines += text;
+  }
   if (m_ledger.runOff > 0) {
     std::snprintf(text, sizeof text, "%-15s%.3g g struck the cloth and were not taken in\n", "run-off",
                   1e3 * m_ledger.runOff);

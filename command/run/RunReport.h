@@ -56,6 +56,7 @@ class RunReport {
   int m_links = 0;
   std::vector<std::string> m_effects;
   wetcloth::Ledger m_ledger;
+  std::optional<wetcloth::WorldLedger> m_drops;
   std::optional<wetcloth::AuditTotals> m_audit;  // of all cloths that have one
   Saturation m_saturation;
   double m_moment[3] = {0, 0, 0};  // mass x position [kg m]

@@ -8,6 +8,7 @@ namespace command {
 Scene dryScene(const Scene& scene) {
   Scene dry = leaveOut(scene, [](const EffectScene& effect) { return effect.water != WaterRole::none; });
   for (ClothScene& cloth : dry.cloths) cloth.makeDry();
+  dry.drops.reset();
   return dry;
 }
 

@@ -4,6 +4,7 @@
 #include "command/cli/NamedValues.h"
 #include "command/cli/Precision.h"
 #include "command/scene/Collider.h"
+#include "command/scene/DropsScene.h"
 #include "command/scene/Region.h"
 #include "command/scene/TriangleMesh.h"
 
@@ -163,6 +164,7 @@ struct Scene {
   std::vector<Collider> colliders;  ///< those of figures are the last
   std::vector<FigureScene> figures;
   std::optional<WaterScene> water;
+  std::optional<DropsScene> drops;  ///< none: what leaves a cloth is gone
   CameraScene camera;
   std::shared_ptr<Dressed> dressed =
       std::make_shared<Dressed>();  ///< found when it is first asked for (dressedPlaces())

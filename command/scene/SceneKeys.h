@@ -18,7 +18,7 @@ namespace keys {
 inline const KeyTable scene{
     "scene",
     {"$schema", "name", "description", "world", "precision", "gravity_m_s2", "step_s", "substeps", "iterations",
-     "duration_s", "implicit", "solver", "quality", "cloths", "colliders", "figures", "water", "camera"}};
+     "duration_s", "implicit", "solver", "quality", "cloths", "colliders", "figures", "water", "drops", "camera"}};
 
 inline const KeyTable solver{"solver", {"small_steps", "stiffness_n_m", "guard"}};
 inline const KeyTable guard{"guard", {"thickness_m", "self", "others", "every", "friction", "bodies", "untangle"}};
@@ -68,6 +68,15 @@ inline const KeyTable motion{"motion", {"times_s", "offsets_m"}};
 
 inline const KeyTable water{"water", {"level_m", "density_kg_m3"}};
 
+inline const KeyTable drops{
+    "drops", {"wind_m_s", "drop_mass_kg", "most", "longest_flight_s", "film_kg_m2", "film_cell_m", "pours", "glasses"}};
+
+inline const KeyTable pour{"pour",
+                           {"position_m", "velocity_m_s", "flow_kg_s", "drop_diameter_m", "mouth_radius_m",
+                            "half_angle_deg", "start_s", "stop_s", "motion"}};
+
+inline const KeyTable glass{"glass", {"collider", "water_kg", "drop_diameter_m"}};
+
 inline const KeyTable exposureBelow{"exposureBelow", {"below_m"}};
 
 inline const KeyTable gust{"gust", {"mean_m_s", "amplitude_m_s", "period_s"}};
@@ -112,10 +121,10 @@ inline const KeyTable camera{"camera", {"direction", "field_of_view_deg"}};
 
 /// But for those of effects, which stand in the catalogue.
 inline const std::vector<const KeyTable*> all{
-    &scene,         &solver,  &guard,    &waterPace, &obj,         &cloth,    &patch, &fabric, &pins,
-    &exposureBelow, &gust,    &twist,    &motion,    &water,       &collider, &plane, &box,    &sphere,
-    &camera,        &capsule, &cylinder, &hull,      &rigidMotion, &figure,   &parts, &part,   &garment,
-    &pattern,       &panel,   &seam,     &seamSide,  &panelFabric, &wetRegion};
+    &scene,         &solver,  &guard,    &waterPace, &obj,         &cloth,     &patch, &fabric, &pins,
+    &exposureBelow, &gust,    &twist,    &motion,    &water,       &collider,  &plane, &box,    &sphere,
+    &camera,        &capsule, &cylinder, &hull,      &rigidMotion, &figure,    &parts, &part,   &garment,
+    &pattern,       &panel,   &seam,     &seamSide,  &panelFabric, &wetRegion, &drops, &pour,   &glass};
 
 }  // namespace keys
 }  // namespace command

@@ -4,6 +4,7 @@
 #include "command/cli/Errors.h"
 #include "command/cli/ProgramFolder.h"
 #include "command/scene/ColliderReader.h"
+#include "command/scene/DropsReader.h"
 #include "command/scene/FabricReader.h"
 #include "command/scene/FigureReader.h"
 #include "command/scene/GarmentReader.h"
@@ -360,6 +361,7 @@ Scene readScene(const std::string& given, const EffectCatalogue& catalogue) {
     for (const JsonCursor& figure : figures->elements()) readFigure(figure, scene);
   }
   if (const auto water = cursor.find("water")) scene.water = readWater(*water);
+  if (const auto drops = cursor.find("drops")) scene.drops = readDrops(*drops, scene);
   for (const JsonCursor& cloth : cursor.at("cloths").elements()) {
     scene.cloths.push_back(readCloth(cloth, scene, catalogue));
   }

@@ -58,8 +58,7 @@ bool isFinite(const btVector3& vector) { return std::isfinite(vector.length2());
 
 }  // namespace
 
-SceneWorld::SceneWorld(const Scene& scene, Kind kind)
-    : m_scene(scene), m_drops(scene), m_world(settingsOf(scene, kind)) {
+SceneWorld::SceneWorld(const Scene& scene, Kind kind) : m_scene(scene), m_world(settingsOf(scene, kind)) {
   if (scene.water) addWater(*scene.water);
   for (const Collider& collider : scene.colliders) addCollider(collider);
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
@@ -69,6 +68,7 @@ SceneWorld::SceneWorld(const Scene& scene, Kind kind)
   if (scene.hasGarments()) settle();
   if (kind == Kind::plainBullet) return;
   m_wetWorld = &m_world.wet();
+  if (scene.drops) atPointer(scene, "/drops", [&] { addDrops(*scene.drops); });
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
     const std::string pointer = "/cloths/" + std::to_string(i);
     atPointer(scene, pointer, [&] { m_cloths.push_back(&wet(scene.cloths[i], *m_bodies[i])); });
@@ -133,7 +133,17 @@ void SceneWorld::addEffects(std::size_t index, wetcloth::WetCloth& wet) {
               [&] { effect.addTo(wet, m_colliders); });
   }
   wet.forEach<wetcloth::CollisionAudit>([&](wetcloth::CollisionAudit& audit) { m_audits.push_back(&audit); });
-  wet.forEach<wetcloth::Dripping>([&](wetcloth::Dripping& dripping) { m_drops.follow(dripping); });
+}
+
+void SceneWorld::addDrops(const DropsScene& scene) {
+  m_drops = std::make_unique<wetcloth::Drops>(*m_wetWorld, scene.parameters);
+  for (const wetcloth::Pour& pour : scene.pours) m_drops->add(pour);
+  for (const DropsScene::FullGlass& full : scene.glasses) {
+    wetcloth::Glass glass = full.glass;
+    const Collider& collider = m_scene.colliders[full.collider];
+    glass.pose = [&collider, rest = full.rest](double time) { return collider.at(time) * rest; };
+    m_drops->add(glass);
+  }
 }
 
 void SceneWorld::addCollider(const Collider& collider) {
@@ -171,11 +181,10 @@ void SceneWorld::step(const BeforeSubstep& before) {
     m_world.substep(dt);
   }
   ++m_steps;
-  m_drops.forgetLanded(m_steps * m_scene.step);
 }
 
 double SceneWorld::filmOn(std::size_t collider) const {
-  double film = 0;
+  double film = m_drops ? m_drops->filmOn(*m_colliders[collider]) : 0;
   for (wetcloth::WetCloth* cloth : m_cloths) {
     cloth->forEach<wetcloth::ContactWetting>(
         [&](const wetcloth::ContactWetting& wetting) { film += wetting.film(*m_colliders[collider]); });

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "command/scene/BulletWorld.h"
-#include "command/scene/FallingDrops.h"
 #include "command/scene/Motion.h"
 #include "command/scene/Scene.h"
 #include "command/scene/Twist.h"
@@ -39,8 +38,8 @@ class SceneWorld {
   /// Goes on from where another world of the same scene is: its time, places and velocities, not its water.
   void continueFrom(const SceneWorld& other);
 
-  /// What the wet world is in now, to go on from it in another run of the same scene: not the drops that fall, which
-  /// are for pictures only. Throws wetcloth::StateError as wetcloth::WetClothWorld::save() and restore() do.
+  /// What the wet world is in now, to go on from it in another run of the same scene. Throws wetcloth::StateError as
+  /// wetcloth::WetClothWorld::save() and restore() do.
   void save(std::ostream& stream) const;
   void restore(std::istream& stream, int steps);
 
@@ -51,10 +50,12 @@ class SceneWorld {
   const std::vector<btSoftBody*>& bodies() const { return m_bodies; }
   /// The wet cloths, in the order of the scene; none in plain Bullet.
   const std::vector<wetcloth::WetCloth*>& cloths() const { return m_cloths; }
-  const FallingDrops& drops() const { return m_drops; }
+  /// Null where the scene asks for none, and in plain Bullet.
+  const wetcloth::Drops* drops() const { return m_drops.get(); }
   const std::vector<wetcloth::CollisionAudit*>& audits() const { return m_audits; }
   const Colliders& colliders() const { return m_colliders; }
-  /// Water on a collider, by its place in the scene, that the cloths' effects know of [kg].
+  /// Water on a collider, by its place in the scene: films that the cloths' effects know of, and where drops landed
+  /// [kg].
   double filmOn(std::size_t collider) const;
   /// Bullet's own springs of each cloth; none outside the deformable world, or where `hooke_springs` hold a wet cloth.
   const std::vector<std::optional<DeformableSprings>>& springs() const { return m_springs; }
@@ -76,6 +77,7 @@ class SceneWorld {
   double sagOf(std::size_t cloth) const;
   void addEffects(std::size_t index, wetcloth::WetCloth& wet);
   void addWater(const WaterScene& water);
+  void addDrops(const DropsScene& drops);
   void addCollider(const Collider& collider);
   void moveColliders(double time);
   void placeColliders();
@@ -87,9 +89,9 @@ class SceneWorld {
   };
 
   const Scene& m_scene;
-  FallingDrops m_drops;  // before the world: its effects tell it of drops
   BulletWorld m_world;
   wetcloth::WetClothWorld* m_wetWorld = nullptr;  // null in plain Bullet
+  std::unique_ptr<wetcloth::Drops> m_drops;
   std::vector<btSoftBody*> m_bodies;
   std::vector<std::optional<DeformableSprings>> m_springs;
   std::vector<wetcloth::WetCloth*> m_cloths;

@@ -17,5 +17,6 @@ std::vector<HardCase> cubicCases();
 std::vector<HardCase> guardCases();
 std::vector<HardCase> wornCases();
 std::vector<HardCase> laundryCases();
+std::vector<HardCase> dropCases();
 
 }  // namespace stability

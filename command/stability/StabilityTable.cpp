@@ -14,7 +14,7 @@ const std::vector<HardCase>& stabilityTable() {
   static const std::vector<HardCase> table = [] {
     std::vector<HardCase> all;
     for (auto* const group : {massCases, windCases, meshCases, contactCases, timeCases, springCases, cubicCases,
-                              guardCases, wornCases, laundryCases}) {
+                              guardCases, wornCases, laundryCases, dropCases}) {
       for (HardCase& hardCase : group()) all.push_back(std::move(hardCase));
     }
     return all;

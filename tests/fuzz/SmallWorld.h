@@ -29,6 +29,11 @@ class SmallWorld {
     cloth.add<wetcloth::Cling>();
     cloth.add<wetcloth::Wind>({btVector3(1, 0, 0)});
     cloth.add<wetcloth::CollisionAudit>();
+    wetcloth::Pour pour;
+    pour.position = btVector3(btScalar(0.5), 1, btScalar(0.5));
+    m_drops = std::make_unique<wetcloth::Drops>(*m_wet);
+    m_drops->add(pour);
+    m_drops->add(wetcloth::Glass());
     m_scene.bullet().step(30);
     m_start = saved();
   }
@@ -77,6 +82,7 @@ class SmallWorld {
   wetcloth_test::RigidBody m_dumbbell{m_scene.bullet(), dumbbell(), btScalar(0.1),
                                       btVector3(btScalar(0.5), btScalar(0.14), btScalar(0.5))};
   std::unique_ptr<wetcloth::WetClothWorld> m_wet;
+  std::unique_ptr<wetcloth::Drops> m_drops;
   std::string m_start;
 };
 
