@@ -213,6 +213,7 @@ void Drops::Flight::flyOn(const Rest& rest) {
 // with no measurement behind it.
 Double3 Drops::Flight::runsOn(const Double3& velocity, const Double3& ground, const Double3& normal) const {
   constexpr double hop = 0.2;                   // of the speed into the ground
+  constexpr double lowest = 0.1;                // off the ground [m/s]: it hops half a millimetre high
   constexpr double slide = 0.8;                 // of the speed along it
   constexpr double spread = 0.3;                // of the speed into the ground, along it
   constexpr double slowest = 0.3;               // [m/s]
@@ -228,7 +229,7 @@ Double3 Drops::Flight::runsOn(const Double3& velocity, const Double3& ground, co
   along += aside * (btScalar(spread) * into);
   const btScalar speed = along.length();
   if (speed < btScalar(slowest)) along = (speed > btScalar(1e-3) ? along / speed : aside) * btScalar(slowest);
-  return asDouble(asBullet(ground) + along + out * (btScalar(hop) * into));
+  return asDouble(asBullet(ground) + along + out * btMax(btScalar(hop) * into, btScalar(lowest)));
 }
 
 void Drops::Flight::tell(const Landing& landing) {

@@ -62,7 +62,7 @@ TEST(DropsOnBodies, NoDropIsInsideAfterIt) {
   pour.position = btVector3(3, 1, 0);
   pour.velocity = btVector3(0, -5, 0);
   pour.mouthRadius = 0.4;
-  pour.flow = 0.2;
+  pour.flow = 0.05;
   pour.dropDiameter = 2e-3;
   watched.scene.drops.add(pour);
   for (int i = 0; i < 240; ++i) {
