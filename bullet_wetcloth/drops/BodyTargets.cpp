@@ -54,7 +54,7 @@ double timeOfPlane(const DropPath& path, const btStaticPlaneShape& plane) {
 }
 
 // From a little before, for a drop that rounding has put just inside: Bullet's rays leave a body unseen.
-double timeOfRay(const DropPath& path, const btCollisionObject& object) {
+double timeOfRay(const DropPath& path, const btCollisionObject& object, btVector3& normal) {
   constexpr double ahead = 1e-4;  // [m]
   double length = 0;
   for (std::size_t k = 0; k < 3; ++k) length += (path.to[k] - path.from[k]) * (path.to[k] - path.from[k]);
@@ -69,6 +69,7 @@ double timeOfRay(const DropPath& path, const btCollisionObject& object) {
   btCollisionWorld::rayTestSingle(from, to, const_cast<btCollisionObject*>(&object), object.getCollisionShape(), none,
                                   nearest);
   if (!nearest.hasHit()) return 2;
+  normal = nearest.m_hitNormalWorld;
   const double fraction = static_cast<double>(nearest.m_closestHitFraction);
   return std::max(0.0, fraction * (1 + before) - before);
 }
@@ -143,11 +144,15 @@ BodyTargets::Hit BodyTargets::firstHit(const DropPath& path) const {
 void BodyTargets::consider(const DropPath& path, const Body& body, Hit& best) const {
   const DropPath local = {inverselyTransformed(body.before, path.from), inverselyTransformed(body.now, path.to)};
   const btCollisionShape& shape = *body.object->getCollisionShape();
+  btVector3 normal(0, 0, 0);
+  if (shape.getShapeType() == STATIC_PLANE_PROXYTYPE) {
+    normal = static_cast<const btStaticPlaneShape&>(shape).getPlaneNormal();
+  }
   const double time = shape.getShapeType() == STATIC_PLANE_PROXYTYPE
                           ? timeOfPlane(local, static_cast<const btStaticPlaneShape&>(shape))
-                          : timeOfRay(local, *body.object);
+                          : timeOfRay(local, *body.object, normal);
   if (!(time < best.time)) return;
-  best = {time, body.object, transformed(body.now, local.at(time))};
+  best = {time, body.object, transformed(body.now, local.at(time)), asDouble(body.now.getBasis() * normal)};
 }
 
 void BodyTargets::transferState(StateArchive& archive) {

@@ -25,7 +25,8 @@ class BodyTargets {
   struct Hit {
     double time = 2;  ///< in [0, 1] of the way; more than 1: it meets nothing
     const btCollisionObject* body = nullptr;
-    Double3 place = {0, 0, 0};  ///< on the body as it is now [m]
+    Double3 place = {0, 0, 0};   ///< on the body as it is now [m]
+    Double3 normal = {0, 0, 0};  ///< out of the body, of length 1
   };
 
   /// Where each body is now is where it was before, too.

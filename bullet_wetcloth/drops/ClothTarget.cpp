@@ -2,6 +2,7 @@
 #include "bullet_wetcloth/drops/ClothTarget.h"
 
 #include "bullet_wetcloth/WetClothWorld.h"
+#include "bullet_wetcloth/numerics/Direction.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
 #include <algorithm>
@@ -90,20 +91,77 @@ void ClothTarget::consider(const DropPath& path, const SweptFaces::Parts<3>::Nod
   best.weights = {std::max(0.0, 1 - contact.where[0] - contact.where[1]), contact.where[0], contact.where[1]};
 }
 
-double ClothTarget::land(const Hit& hit, double mass, const Double3& velocity) {
+ClothTarget::Side ClothTarget::sideOf(const Hit& hit, const DropPath& path) const {
+  constexpr double off = 1e-4;  // [m]
+  Double3 corners[3];
+  Double3 way;  // of the drop, as seen from the place of the face
+  Side side;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    side.onFace[axis] = 0;
+    way[axis] = path.to[axis] - path.from[axis];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double(&at)[2] = m_faces.position(hit.nodes[k]).at[axis];
+      corners[k][axis] = at[1];
+      side.onFace[axis] += hit.weights[k] * at[1];
+      way[axis] -= hit.weights[k] * (at[1] - at[0]);
+    }
+  }
+  const btVector3 u = asBullet(corners[1]) - asBullet(corners[0]);
+  const btVector3 v = asBullet(corners[2]) - asBullet(corners[0]);
+  btVector3 normal = directionOf(u.cross(v));
+  if (normal.dot(asBullet(way)) > 0) normal = -normal;
+  side.normal = asDouble(normal);
+  for (std::size_t axis = 0; axis < 3; ++axis) side.place[axis] = side.onFace[axis] + off * side.normal[axis];
+  return side;
+}
+
+Double3 ClothTarget::velocityAt(const Hit& hit) const {
+  Double3 velocity = {0, 0, 0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Double3 node = asDouble(m_cloth->body().m_nodes[hit.nodes[k]].m_v);
+    for (std::size_t axis = 0; axis < 3; ++axis) velocity[axis] += hit.weights[k] * node[axis];
+  }
+  return velocity;
+}
+
+double ClothTarget::tooMuch(const Hit& hit, double mass) const {
+  double rest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double room = m_uptake.room(m_cloth->water(), static_cast<std::size_t>(hit.nodes[k]));
+    rest += std::max(0.0, hit.weights[k] * mass - std::max(0.0, room));
+  }
+  return rest;
+}
+
+double ClothTarget::land(const Hit& hit, double mass, const Double3& velocity, const Double3* after) {
   Water& water = m_cloth->water();
-  const double shares[3] = {hit.weights[0] * mass, hit.weights[1] * mass,
-                            mass - (hit.weights[0] + hit.weights[1]) * mass};
+  const double last = mass - (hit.weights[0] + hit.weights[1]) * mass;
+  const double shares[3] = {hit.weights[0] * mass, hit.weights[1] * mass, last};
   double kept = mass;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double share = std::max(0.0, shares[k]);
     const std::size_t node = static_cast<std::size_t>(hit.nodes[k]);
+    const double share = std::max(0.0, shares[k]);
     const double rest = m_uptake.catchDrops(water, node, share, velocity[0], velocity[1], velocity[2]);
-    water.runOff(node, rest, velocity[0], velocity[1], velocity[2]);
     kept -= rest;
+    if (!(rest > 0)) continue;
+    if (after) {
+      bounce(node, rest, velocity, *after);
+    } else {
+      water.runOff(node, rest, velocity[0], velocity[1], velocity[2]);
+    }
   }
   if (!m_cloth->body().isActive()) m_cloth->body().activate(true);
   return kept;
+}
+
+// What runs off leaves with the node's velocity: such a one that the node gets dm (u - u'), whatever it weighs.
+void ClothTarget::bounce(std::size_t node, double mass, const Double3& velocity, const Double3& after) {
+  Water& water = m_cloth->water();
+  const Double3 own = asDouble(m_cloth->body().m_nodes[static_cast<int>(node)].m_v);
+  const double factor = 1 + mass / water.totalMass(node);
+  Double3 seen;
+  for (std::size_t k = 0; k < 3; ++k) seen[k] = (velocity[k] - after[k]) * factor + own[k];
+  water.runOffFollowed(node, mass, seen[0], seen[1], seen[2]);
 }
 
 void ClothTarget::transferState(StateArchive& archive) {

@@ -40,9 +40,21 @@ class ClothTarget {
   /// The first face that a drop meets on its way, while the faces move on theirs. None is missed (Tier::conservative).
   /// Faces are as they are now where `areStill`; those with the node `except` are passed over.
   Hit firstHit(const DropPath& path, bool areStill = false, int except = -1);
-  /// Water lands there with this velocity: nodes take what they have room for, the rest runs off them, and both leave
-  /// their momentum. Returns what was taken [kg].
-  double land(const Hit& hit, double mass, const Double3& velocity);
+  /// The place of the face that was hit, now, a little off the face on the side that a drop on this way came from, and
+  /// the direction out of the face on that side.
+  struct Side {
+    Double3 onFace;
+    Double3 place;
+    Double3 normal = {0, 0, 0};  ///< of length 1; 0 of a face without area
+  };
+  Side sideOf(const Hit& hit, const DropPath& path) const;
+  /// Of the cloth at that place [m/s].
+  Double3 velocityAt(const Hit& hit) const;
+  /// What of this water the nodes there have no room for [kg].
+  double tooMuch(const Hit& hit, double mass) const;
+  /// Water lands there with this velocity: nodes take what they have room for, with its momentum. The rest goes on with
+  /// the velocity `after`, or, without one, runs off the nodes. Returns what was taken [kg].
+  double land(const Hit& hit, double mass, const Double3& velocity, const Double3* after);
 
   /// Drops and faces that were looked at closely, for tests that count work.
   long long candidates() const { return m_candidates; }
@@ -51,6 +63,7 @@ class ClothTarget {
 
  private:
   void fit();
+  void bounce(std::size_t node, double mass, const Double3& velocity, const Double3& after);
   void fitUptake();
   void consider(const DropPath& path, const SweptFaces::Parts<3>::Nodes& face, bool areStill, Hit& best);
 

@@ -91,6 +91,11 @@ void DropList::move(std::size_t i, const Double3& position, const Double3& veloc
   m_age[i] += dt;
 }
 
+void DropList::setMass(std::size_t i, double mass) {
+  m_mass[i] = mass;
+  m_diameter[i] = dropDiameter(mass, m_waterDensity);
+}
+
 double DropList::total() const { return compensatedSum(m_mass); }
 
 void DropList::transferState(StateArchive& archive) {

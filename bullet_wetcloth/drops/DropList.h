@@ -37,6 +37,8 @@ class DropList {
   /// The last one takes the place of this one.
   void remove(std::size_t i);
   void move(std::size_t i, const Double3& position, const Double3& velocity, double dt);
+  /// Some of it has gone.
+  void setMass(std::size_t i, double mass);
 
   /// All drops [kg].
   double total() const;

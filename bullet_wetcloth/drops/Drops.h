@@ -60,9 +60,10 @@ struct WorldLedger {
 /// A drop flies by gravity, drag by its size (dropDecay()) and wind, and lands on the first cloth or rigid body that it
 /// meets. No drop passes through a cloth: its straight way in a substep is checked against the faces' ways in the same
 /// substep, and no contact is missed (collision::ContinuousCheck). The cloth's nodes take up what they have room for,
-/// at the place that the drop hits, and all of it brings its momentum; the rest runs off them and goes on as drops.
-/// What lands on a rigid body pushes that and stays there as a film, from which ContactWetting gives to cloth that
-/// touches; what is more than `filmDensity` has left the world. Drops do not meet each other, and films do not flow.
+/// at the place that the drop hits, with its momentum; the rest hops on along the cloth, on the side that it came from,
+/// as a smaller drop. What lands on a rigid body pushes that and stays there as a film, from which ContactWetting gives
+/// to cloth that touches; what is more than `filmDensity` hops on, too. Drops do not meet each other, and films do not
+/// flow.
 ///
 /// What leaves a cloth grows at its node until it is `dropMass`, and falls then, with the node's velocity. When there
 /// are `mostDrops`, a new drop joins the nearest one.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/drops/DropsStep.h"
 
+#include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WetClothWorld.h"
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
@@ -14,6 +15,8 @@ namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 namespace {
+
+constexpr double kLeastShare = 0.01;  // of a full drop: less does not fly on by itself
 
 bool areFinite(const Double3& v) { return std::isfinite(v[0] + v[1] + v[2]); }
 
@@ -80,15 +83,16 @@ bool Drops::Flight::fly(std::size_t i) {
   const DropPath path = pathOf(drops.position(i), before, drops.diameter(i), m_flown, after);
   const bool isLost = !areFinite(path.to) || !areFinite(after) || drops.age(i) >= m_state.parameters.longestFlight;
   const Hit hit = isLost ? Hit() : firstHit(path);
-  if (isLost) {
-    land(hit, {path.from, path.from}, before, drops.mass(i));
-  } else if (!hit.isNone()) {
-    land(hit, path, between(before, after, hit.time), drops.mass(i));
-  } else {
+  if (!isLost && hit.isNone()) {
     drops.move(i, path.to, after, m_flown);
     return true;
   }
-  return false;
+  const Rest rest = isLost ? land(hit, {path.from, path.from}, before, drops.mass(i))
+                           : land(hit, path, between(before, after, hit.time), drops.mass(i));
+  if (!(rest.mass > 0)) return false;
+  drops.move(i, rest.position, rest.velocity, m_flown);
+  drops.setMass(i, rest.mass);
+  return true;
 }
 
 DropPath Drops::Flight::pathOf(const Double3& from, const Double3& velocity, double diameter, double dt,
@@ -145,32 +149,87 @@ void Drops::Flight::meetSurface(const DropPath& path, Hit& hit) const {
   hit.time = time;
 }
 
-void Drops::Flight::land(const Hit& hit, const DropPath& path, const Double3& velocity, double mass) {
+Drops::Flight::Rest Drops::Flight::land(const Hit& hit, const DropPath& path, const Double3& velocity, double mass) {
+  Rest rest;
+  const bool isOnCloth = hit.cloth != nullptr;
   const Double3 place = hit.body.body ? hit.body.place : path.at(std::min(hit.time, 1.0));
-  WetCloth* const cloth = hit.cloth ? &hit.cloth->target.cloth() : nullptr;
   double kept = 0;
-  if (cloth) {
-    kept = hit.cloth->target.land(hit.face, mass, velocity);
-    m_state.accounts.taken.add(kept);
-    m_state.accounts.returned.add(mass - kept);
+  if (isOnCloth) {
+    kept = landOnCloth(hit, path, velocity, mass, rest);
     ++m_state.counts.landedOnCloth;
   } else {
-    kept = hit.body.body ? landOnBody(hit.body, velocity, mass) : 0;
-    m_state.accounts.left.add(mass - kept);
+    kept = hit.body.body ? landOnBody(hit.body, velocity, mass, rest) : 0;
+    m_state.accounts.left.add(mass - kept - rest.mass);
     ++m_state.counts.ended;
   }
+  WetCloth* const cloth = isOnCloth ? &hit.cloth->target.cloth() : nullptr;
   tell({m_time, asBullet(place), asBullet(velocity), mass, kept, cloth, hit.body.body});
+  return rest;
 }
 
-double Drops::Flight::landOnBody(const BodyTargets::Hit& hit, const Double3& velocity, double mass) {
+double Drops::Flight::landOnCloth(const Hit& hit, const DropPath& path, const Double3& velocity, double mass,
+                                  Rest& rest) {
+  ClothTarget& target = hit.cloth->target;
+  const ClothTarget::Side side = target.sideOf(hit.face, path);
+  const double tooMuch = target.tooMuch(hit.face, mass);
+  // What is hardly a drop, or has another layer of cloth before it, stays at the nodes until it is one.
+  const bool goesOn = tooMuch > kLeastShare * m_state.parameters.dropMass && side.normal != Double3{0, 0, 0} &&
+                      firstHit({side.onFace, side.place}, hit.cloth, hit.face.nodes[0]).isNone();
+  const Double3 after = runsOn(velocity, target.velocityAt(hit.face), side.normal);
+  const double kept = target.land(hit.face, mass, velocity, goesOn ? &after : nullptr);
+  m_state.accounts.taken.add(kept);
+  m_state.accounts.returned.add(mass - kept);
+  if (goesOn) rest = {mass - kept, side.place, after};
+  return kept;
+}
+
+double Drops::Flight::landOnBody(const BodyTargets::Hit& hit, const Double3& velocity, double mass, Rest& rest) {
+  constexpr double off = 1e-4;  // [m]
   btCollisionObject& object = const_cast<btCollisionObject&>(*hit.body);
+  const double kept = m_state.films.add(object, asBullet(hit.place), mass);
   btRigidBody* const rigid = btRigidBody::upcast(&object);
-  if (rigid && !rigid->isStaticOrKinematicObject()) {
-    const btVector3 arm = asBullet(hit.place) - rigid->getCenterOfMassPosition();
-    rigid->activate();
-    rigid->applyImpulse((asBullet(velocity) - rigid->getVelocityInLocalPoint(arm)) * static_cast<btScalar>(mass), arm);
+  const btVector3 arm = rigid ? asBullet(hit.place) - rigid->getCenterOfMassPosition() : btVector3(0, 0, 0);
+  const btVector3 ground = rigid ? rigid->getVelocityInLocalPoint(arm) : btVector3(0, 0, 0);
+  btVector3 impulse = (asBullet(velocity) - ground) * static_cast<btScalar>(kept);
+  if (mass - kept > kLeastShare * m_state.parameters.dropMass && hit.normal != Double3{0, 0, 0}) {
+    rest.mass = mass - kept;
+    rest.velocity = runsOn(velocity, asDouble(ground), hit.normal);
+    for (std::size_t k = 0; k < 3; ++k) rest.position[k] = hit.place[k] + off * hit.normal[k];
+    impulse += (asBullet(velocity) - asBullet(rest.velocity)) * static_cast<btScalar>(rest.mass);
   }
-  return m_state.films.add(object, asBullet(hit.place), mass);
+  if (rigid && !rigid->isStaticOrKinematicObject()) {
+    rigid->activate();
+    rigid->applyImpulse(impulse, arm);
+  }
+  return kept;
+}
+
+void Drops::Flight::flyOn(const Rest& rest) {
+  if (rest.mass > 0) m_state.drops.add(rest.position, rest.velocity, rest.mass);
+}
+
+// A drop that finds no room on the ground where it lands hops on along it: it loses most of what went into the ground,
+// and runs on at the speed of a thin film at least, in a direction of its own if it has none. The library's own model,
+// with no measurement behind it.
+Double3 Drops::Flight::runsOn(const Double3& velocity, const Double3& ground, const Double3& normal) const {
+  constexpr double hop = 0.2;                   // of the speed into the ground
+  constexpr double lowest = 0.1;                // off the ground [m/s]: it hops half a millimetre high
+  constexpr double slide = 0.8;                 // of the speed along it
+  constexpr double spread = 0.3;                // of the speed into the ground, along it
+  constexpr double slowest = 0.3;               // [m/s]
+  constexpr double golden = 2.399963229728653;  // [rad]
+  const btVector3 out = asBullet(normal);
+  const btVector3 relative = asBullet(velocity) - asBullet(ground);
+  const btScalar into = btMax(btScalar(0), -relative.dot(out));
+  btVector3 along = (relative + out * into) * btScalar(slide);
+  btVector3 one, other;
+  btPlaneSpace1(out, one, other);
+  const double angle = golden * static_cast<double>(m_state.counts.landedOnCloth + m_state.counts.ended);
+  const btVector3 aside = one * static_cast<btScalar>(std::cos(angle)) + other * static_cast<btScalar>(std::sin(angle));
+  along += aside * (btScalar(spread) * into);
+  const btScalar speed = along.length();
+  if (speed < btScalar(slowest)) along = (speed > btScalar(1e-3) ? along / speed : aside) * btScalar(slowest);
+  return asDouble(asBullet(ground) + along + out * btMax(btScalar(hop) * into, btScalar(lowest)));
 }
 
 void Drops::Flight::tell(const Landing& landing) {
@@ -206,7 +265,7 @@ void Drops::Flight::shedFrom(State::Followed& followed) {
     if (hit.isNone()) {
       m_state.drops.add(path.to, asDouble(from.m_v), mass);
     } else {
-      land(hit, path, asDouble(from.m_v), mass);
+      flyOn(land(hit, path, asDouble(from.m_v), mass));
     }
   }
 }
@@ -233,7 +292,7 @@ void Drops::Flight::begin(const Double3& from, const Double3& velocity, double m
   } else if (hit.isNone()) {
     m_state.drops.add(path.to, after, mass);
   } else {
-    land(hit, path, between(velocity, after, hit.time), mass);
+    flyOn(land(hit, path, between(velocity, after, hit.time), mass));
   }
 }
 

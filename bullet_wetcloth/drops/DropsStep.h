@@ -34,8 +34,17 @@ class Drops::Flight {
   DropPath pathOf(const Double3& from, const Double3& velocity, double diameter, double dt, Double3& velocityAfter);
   Hit firstHit(const DropPath& path, const State::Followed* from = nullptr, int node = -1);
   void meetSurface(const DropPath& path, Hit& hit) const;
-  void land(const Hit& hit, const DropPath& path, const Double3& velocity, double mass);
-  double landOnBody(const BodyTargets::Hit& hit, const Double3& velocity, double mass);
+  // What of a drop goes on.
+  struct Rest {
+    double mass = 0;  // [kg]; 0: nothing
+    Double3 position = {0, 0, 0};
+    Double3 velocity = {0, 0, 0};
+  };
+  Rest land(const Hit& hit, const DropPath& path, const Double3& velocity, double mass);
+  double landOnCloth(const Hit& hit, const DropPath& path, const Double3& velocity, double mass, Rest& rest);
+  double landOnBody(const BodyTargets::Hit& hit, const Double3& velocity, double mass, Rest& rest);
+  void flyOn(const Rest& rest);
+  Double3 runsOn(const Double3& velocity, const Double3& ground, const Double3& normal) const;
   void tell(const Landing& landing);
 
   State& m_state;

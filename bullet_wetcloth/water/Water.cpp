@@ -38,15 +38,13 @@ double Water::moved() const {
   return absorbed + m_dripped.value() + m_evaporated.value() + m_movedWithin;
 }
 
-void Water::runOff(std::size_t node, double mass, double vx, double vy, double vz) {
-  if (!(mass > 0)) return;
+void Water::strike(std::size_t node, double mass, double vx, double vy, double vz) {
   Arrival& arrival = m_arrivals[node];
   arrival.runOff += mass;
   arrival.momentum[0] += mass * vx;
   arrival.momentum[1] += mass * vy;
   arrival.momentum[2] += mass * vz;
   m_runOff.add(mass);
-  if (m_keepsShed) shed(node, mass);
   m_movedSinceCommit = true;  // no revision: the water is as it was
 }
 

@@ -123,7 +123,15 @@ class WETCLOTH_EXPORT Water {
   }
   /// Water that strikes a node with velocity (vx, vy, vz) [m/s] and runs off: it leaves its momentum, as in an
   /// inelastic impact, and goes away with the node's velocity. `mass` must be finite and >= 0.
-  void runOff(std::size_t node, double mass, double vx, double vy, double vz);
+  void runOff(std::size_t node, double mass, double vx, double vy, double vz) {
+    if (!(mass > 0)) return;
+    strike(node, mass, vx, vy, vz);
+    if (m_keepsShed) shed(node, mass);
+  }
+  /// The same of water that somebody follows further: it is not shed().
+  void runOffFollowed(std::size_t node, double mass, double vx, double vy, double vz) {
+    if (mass > 0) strike(node, mass, vx, vy, vz);
+  }
   /// Liquid that leaves at the node's own velocity; at most what is held. Returns what left.
   double drip(std::size_t node, double mass) {
     const double left = take(node, mass, m_dripped);
@@ -221,6 +229,7 @@ class WETCLOTH_EXPORT Water {
   void setCapacities();
   void keepShedOfGoneNodes();
   double take(std::size_t node, double mass, CompensatedSum& account);
+  void strike(std::size_t node, double mass, double vx, double vy, double vz);
   void shed(std::size_t node, double mass) {
     m_shed[node] += mass;
     m_hasShedMore = true;
