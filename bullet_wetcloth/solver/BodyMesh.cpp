@@ -11,7 +11,8 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-constexpr std::size_t kFacesInTile = 64;
+constexpr std::size_t kFacesInTile = 64;         // unless they are a shell
+constexpr std::size_t kMostFacesOfShell = 1000;  // planes are measured from all corners
 
 }  // namespace
 
@@ -21,6 +22,8 @@ void BodyMesh::clear() {
   m_mesh.faces.clear();
   m_mesh.cells.clear();
   m_mesh.tiles.clear();
+  m_mesh.shells.clear();
+  m_mesh.shellOfTile.clear();
   m_from.clear();
   m_to.clear();
 }
@@ -54,9 +57,15 @@ void BodyMesh::add(const ShapeFaces& shape, const BodyPose& from, const BodyPose
   findEdges(shape.faces());
   m_hasVertex.assign(shape.corners().size(), 0);
   std::size_t side = 0;
+  const bool isShell = shape.hulls().size() == 1 && shape.faces().size() <= kMostFacesOfShell;
+  const int shell = isShell ? static_cast<int>(m_mesh.shells.size()) : -1;
+  const int firstFace = static_cast<int>(m_mesh.faces.size());
   for (std::size_t face = 0; face < shape.faces().size(); ++face) {
     const int cell = static_cast<int>(m_mesh.cells.size());
-    if (face % kFacesInTile == 0) m_mesh.tiles.push_back({cell, cell, false});
+    if (isShell ? face == 0 : face % kFacesInTile == 0) {
+      m_mesh.tiles.push_back({cell, cell, false});
+      m_mesh.shellOfTile.push_back(shell);
+    }
     m_mesh.tiles.back().endCell = cell + 1;
     m_mesh.cells.push_back({static_cast<int>(m_mesh.vertices.size()), static_cast<int>(m_mesh.edges.size()),
                             static_cast<int>(m_mesh.faces.size()), 0, 0});
@@ -69,6 +78,9 @@ void BodyMesh::add(const ShapeFaces& shape, const BodyPose& from, const BodyPose
       m_mesh.edges.push_back({{first + m_sides[side].low, first + m_sides[side].high}});
     }
     m_mesh.faces.push_back({{first + corner[0], first + corner[1], first + corner[2]}});
+  }
+  if (isShell) {
+    m_mesh.shells.push_back({first, static_cast<int>(m_from.size()), firstFace, static_cast<int>(m_mesh.faces.size())});
   }
 }
 

@@ -27,7 +27,10 @@ constexpr btScalar kSlackOfBend = btScalar(0.2);     // a parabola is 1/8 of it 
 constexpr btScalar kMostBendOfEdge = btScalar(0.1);  // by which an end is expected off the present way
 constexpr btScalar kMostSlackFactor = 64;            // when what was held apart left what had been expected of it
 constexpr int kFewAhead = 2;                         // small steps
-constexpr double kRestless = 0.001;                  // share of nodes that may need more than the most slack
+// Share of nodes that may need more than the most slack: where there is a grid, and where each is looked at again by
+// itself.
+constexpr double kRestless = 0.001;
+constexpr double kRestlessByNodes = 0.03;
 constexpr btScalar kRoundingsOfSlack = 200;
 constexpr btScalar kPartingOfEdge = btScalar(0.001);  // in a small step
 constexpr int kMostLooks = 12;                        // in a small step
@@ -240,7 +243,10 @@ void ClothGuard::look() {
   ++m_totals.looks;
   m_age = 1;
   m_ahead = std::min(m_parameters.every, m_smallSteps - m_taken);
-  while (expectAll() > kRestless && m_ahead > kFewAhead) m_ahead /= 2;
+  const bool isAnyGrid =
+      std::any_of(m_cloths.begin(), m_cloths.end(), [](const Cloth& cloth) { return cloth.mesh->isGrid(); });
+  const double restless = isAnyGrid ? kRestless : kRestlessByNodes;
+  while (expectAll() > restless && m_ahead > kFewAhead) m_ahead /= 2;
   for (std::size_t c = 0; c < m_cloths.size(); ++c) showExpected(c);
   m_pairs.clear();
   m_candidates.clear();
@@ -286,7 +292,7 @@ void ClothGuard::lookAgain() {
   }
   m_candidates.clear();
   m_tiles.findPairsAgain(m_left, m_candidates);
-  m_pairs.drop([&](int tileA, int tileB) { return m_tiles.areLookedAtAgain(tileA, tileB); });
+  m_pairs.drop([&](const GuardPair& pair) { return m_tiles.isLookedAtAgain(pair); });
   addPlanes();
 }
 

@@ -126,6 +126,8 @@ void GuardBounds::boundTiles(const GuardNodes& nodes, btScalar near) {
   }
   std::fill(m_normalsAreBound.begin(), m_normalsAreBound.end(), static_cast<unsigned char>(0));
   std::fill(m_patches.begin(), m_patches.end(), Flatness::unknown);
+  m_stirred.clear();
+  m_lost.clear();
   std::fill(m_partsAreBound.begin(), m_partsAreBound.end(), static_cast<unsigned char>(0));
   for (const Cloth& cloth : m_cloths) {
     for (std::size_t tile = 0; tile < cloth.mesh->tiles.size(); ++tile) findTile(cloth, static_cast<int>(tile));
@@ -143,8 +145,27 @@ void GuardBounds::boundTile(const Cloth& cloth, int tile) {
   m_normalsAreBound[cloth.firstSquare[0] + toSize(tile)] = 0;
   if (mesh.patches.empty()) return;
   for (const int patch : mesh.patchesTouched[toSize(tile)]) {
-    m_patches[cloth.firstPatch + toSize(patch)] = Flatness::unknown;
+    const PatchOf of = {static_cast<std::size_t>(&cloth - m_cloths.data()), patch};
+    if (flatnessOf(of) != Flatness::flat) continue;
+    flatnessOf(of) = Flatness::wasFlat;
+    m_stirred.push_back(of);
   }
+}
+
+// What was not flat is not looked at: pairs of its parts may have planes.
+void GuardBounds::renewPatches() {
+  for (const PatchOf& of : m_lost) flatnessOf(of) = Flatness::perhapsNot;
+  m_lost.clear();
+  for (const PatchOf& of : m_stirred) {
+    const Cloth& cloth = m_cloths[of.cloth];
+    if (isFlat(cloth, cloth.mesh->patches[toSize(of.patch)])) {
+      flatnessOf(of) = Flatness::flat;
+    } else {
+      flatnessOf(of) = Flatness::lost;
+      m_lost.push_back(of);
+    }
+  }
+  m_stirred.clear();
 }
 
 // And whether they are flat with what is next to them.
@@ -284,13 +305,26 @@ bool GuardBounds::areFlatNow(const Cloth& cloth, int level, const GridRectangle&
 
 bool GuardBounds::areInAFlatPatch(const Cloth& cloth, int tileA, int tileB) {
   const GuardMesh& mesh = *cloth.mesh;
-  if (mesh.patches.empty()) return false;
-  for (const int k : mesh.patchesWithTile[toSize(tileA)]) {
-    const SheetPatch& patch = mesh.patches[toSize(k)];
-    if (!std::binary_search(patch.whole.begin(), patch.whole.end(), tileB)) continue;
-    Flatness& known = m_patches[cloth.firstPatch + toSize(k)];
-    if (known == Flatness::unknown) known = isFlat(cloth, patch) ? Flatness::flat : Flatness::perhapsNot;
+  const GuardMesh::TileInPatch* const both = mesh.inPatches(tileA, tileB);
+  if (!both) return false;
+  for (int k = both->firstPatch; k < both->endPatch; ++k) {
+    const std::size_t patch = toSize(mesh.patchesOfTiles[toSize(k)]);
+    Flatness& known = m_patches[cloth.firstPatch + patch];
+    if (known == Flatness::unknown) {
+      known = isFlat(cloth, mesh.patches[patch]) ? Flatness::flat : Flatness::perhapsNot;
+    }
     if (known == Flatness::flat) return true;
+  }
+  return false;
+}
+
+bool GuardBounds::wereInAFlatPatch(const Cloth& cloth, int tileA, int tileB) const {
+  if (m_lost.empty()) return false;
+  const GuardMesh& mesh = *cloth.mesh;
+  const GuardMesh::TileInPatch* const both = mesh.inPatches(tileA, tileB);
+  if (!both) return false;
+  for (int k = both->firstPatch; k < both->endPatch; ++k) {
+    if (m_patches[cloth.firstPatch + toSize(mesh.patchesOfTiles[toSize(k)])] == Flatness::lost) return true;
   }
   return false;
 }

@@ -37,8 +37,10 @@ class GuardBounds {
 
   /// All nodes are expected anew; they live as long as bounds are asked for. Parts are near at this distance [m].
   void boundTiles(const GuardNodes& nodes, btScalar near);
-  /// Nodes of this tile are expected elsewhere.
+  /// Nodes of this tile are expected elsewhere. After all such tiles: renewPatches().
   void boundTile(const Cloth& cloth, int tile);
+  /// Of a mesh that is no grid: what is known of patches holds again, but for those that are flat no more.
+  void renewPatches();
 
   const GuardBox& tile(const Cloth& cloth, int tile) const {
     return m_levels[0].squares[cloth.firstSquare[0] + toSize(tile)].box;
@@ -59,6 +61,9 @@ class GuardBounds {
   bool areFlat(const Cloth& cloth, int level, const GridRectangle& squares);
   /// The same for what of a mesh that is no grid is in one of its patches.
   bool areInAFlatPatch(const Cloth& cloth, int tileA, int tileB);
+  /// Whether they are in one that was flat before the last renewPatches(), and is no more.
+  bool wereInAFlatPatch(const Cloth& cloth, int tileA, int tileB) const;
+  bool isAnyPatchLost() const { return !m_lost.empty(); }
   static bool areNear(int level, const GridRectangle& squares) {
     return squares.reachesAtMost(level < GuardGrid::kCells ? 2 : 3);
   }
@@ -69,7 +74,8 @@ class GuardBounds {
     GuardBox box;
     SheetBounds vectors;
   };
-  enum class Flatness : unsigned char { unknown, flat, perhapsNot };
+  // Of a patch: it was flat before nodes were expected elsewhere, or before the last renewPatches().
+  enum class Flatness : unsigned char { unknown, flat, perhapsNot, wasFlat, lost };
   struct Level {
     std::vector<Square> squares;
     std::vector<unsigned char> isBound;
@@ -79,7 +85,12 @@ class GuardBounds {
   Square squareOf(const Cloth& cloth, const GridRectangle& nodes) const;
   GuardBox boxOf(const Cloth& cloth, const int* nodes, int count) const;
   const Square& squareAt(const Cloth& cloth, int level, int row, int column);
+  struct PatchOf {
+    std::size_t cloth;
+    int patch;
+  };
   bool isFlat(const Cloth& cloth, const SheetPatch& patch);
+  Flatness& flatnessOf(const PatchOf& of) { return m_patches[m_cloths[of.cloth].firstPatch + toSize(of.patch)]; }
   void findTile(const Cloth& cloth, int tile);
   void forgetSquaresOf(const Cloth& cloth, int tile);
   bool areFlatNow(const Cloth& cloth, int level, const GridRectangle& squares);
@@ -91,6 +102,8 @@ class GuardBounds {
   std::vector<GuardBox> m_normals;  // of tiles
   std::vector<unsigned char> m_normalsAreBound;
   std::vector<Flatness> m_patches;
+  std::vector<PatchOf> m_stirred;  // patches that were flat
+  std::vector<PatchOf> m_lost;
   std::vector<GuardBox> m_edges;
   std::vector<GuardBox> m_faces;
   std::vector<unsigned char> m_partsAreBound;  // of cells

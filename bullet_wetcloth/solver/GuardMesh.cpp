@@ -14,7 +14,7 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
-constexpr int kMostFacesInTile = 64;
+constexpr int kMostFacesInTile = 32;
 
 GuardMesh::Face nodesOf(const btSoftBody& body, int face) {
   const btSoftBody::Face& f = body.m_faces[face];
@@ -237,21 +237,32 @@ void GuardMesh::findTilesOfNodes(int nodeCount) {
 
 void GuardMesh::findPatches(const std::vector<btVector3>& places) {
   patches = sheetPatchesOf(*this, places);
-  patchesWithTile.resize(tiles.size());
   patchesTouched.resize(tiles.size());
-  tilesOfPatches.resize(tiles.size());
+  tilesInPatches.resize(tiles.size());
+  std::vector<std::array<int, 3>> found;  // tile, other tile, patch
   for (std::size_t k = 0; k < patches.size(); ++k) {
-    for (const int tile : patches[k].whole) patchesWithTile[toSize(tile)].push_back(static_cast<int>(k));
+    const std::vector<int>& whole = patches[k].whole;
     for (const int tile : patches[k].tiles) patchesTouched[toSize(tile)].push_back(static_cast<int>(k));
-  }
-  for (std::size_t tile = 0; tile < tiles.size(); ++tile) {
-    std::vector<int>& around = tilesOfPatches[tile];
-    for (const int patch : patchesWithTile[tile]) {
-      around.insert(around.end(), patches[toSize(patch)].tiles.begin(), patches[toSize(patch)].tiles.end());
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      for (std::size_t j = i; j < whole.size(); ++j) found.push_back({whole[i], whole[j], static_cast<int>(k)});
     }
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
   }
+  std::sort(found.begin(), found.end());
+  for (const auto& [tile, other, patch] : found) {
+    std::vector<TileInPatch>& others = tilesInPatches[toSize(tile)];
+    const int count = static_cast<int>(patchesOfTiles.size());
+    if (others.empty() || others.back().tile != other) others.push_back({other, count, count});
+    patchesOfTiles.push_back(patch);
+    ++others.back().endPatch;
+  }
+}
+
+const GuardMesh::TileInPatch* GuardMesh::inPatches(int tileA, int tileB) const {
+  if (tilesInPatches.empty()) return nullptr;
+  const std::vector<TileInPatch>& others = tilesInPatches[toSize(tileA)];
+  const auto found = std::lower_bound(others.begin(), others.end(), tileB,
+                                      [](const TileInPatch& other, int tile) { return other.tile < tile; });
+  return found != others.end() && found->tile == tileB ? &*found : nullptr;
 }
 
 GuardMesh guardMeshOf(const btSoftBody& body, const std::optional<NodeSlots::Grid>& grid,

@@ -38,6 +38,16 @@ struct GuardMesh {
     int endCell;   ///< after the last one
     bool isWhole;  ///< of a grid: has two triangles between all its rows and columns
   };
+  struct TileInPatch {
+    int tile;
+    int firstPatch;  ///< of patchesOfTiles
+    int endPatch;
+  };
+  /// Of a mesh of bodies: a convex one, or what of it is there.
+  struct Shell {
+    int node, endNode;
+    int face, endFace;
+  };
   /// Rows and columns of nodes in a tile of a grid.
   static constexpr int kSide = 8;
 
@@ -46,6 +56,8 @@ struct GuardMesh {
   std::vector<Face> faces;
   std::vector<Cell> cells;  ///< and one more after the last
   std::vector<Tile> tiles;  ///< of a grid: row by row
+  std::vector<Shell> shells;
+  std::vector<int> shellOfTile;  ///< of a mesh of bodies; -1: none
   /// Of each node: between which of tilesOfNodes the tiles are that have a face with it, and of a grid those whose
   /// rectangle has it.
   std::vector<int> firstTileOfNode;
@@ -54,11 +66,12 @@ struct GuardMesh {
   /// Of each face of a mesh that is no grid: which way round its nodes are, as faceWindings(), over twice its area
   /// when the mesh was made [1/m^2]; 0 of one without area.
   std::vector<btScalar> windings;
-  std::vector<SheetPatch> patches;                ///< of a mesh that is no grid
-  std::vector<std::vector<int>> patchesWithTile;  ///< of each tile, those that have all of its faces
-  std::vector<std::vector<int>> patchesTouched;   ///< of each tile, those that have any of its faces
-  std::vector<std::vector<int>> tilesOfPatches;   ///< of each tile, those of all patchesWithTile
-  int columns = 0;                                ///< of nodes in a grid; 0: it is none
+  std::vector<SheetPatch> patches;               ///< of a mesh that is no grid
+  std::vector<std::vector<int>> patchesTouched;  ///< of each tile, those that have any of its faces
+  /// Of each tile: it and later ones that have all of their faces in one patch with all of its faces, sorted.
+  std::vector<std::vector<TileInPatch>> tilesInPatches;
+  std::vector<int> patchesOfTiles;  ///< of these, one after the other
+  int columns = 0;                  ///< of nodes in a grid; 0: it is none
   int rows = 0;
   int tileColumns = 0;
   int tileRows = 0;
@@ -69,6 +82,9 @@ struct GuardMesh {
   void findTilesOfNodes(int nodeCount);
   /// Finds the patches, where nodes are at these places [m].
   void findPatches(const std::vector<btVector3>& places);
+
+  /// Of two tiles, sorted; null: no patch has all faces of both.
+  const TileInPatch* inPatches(int tileA, int tileB) const;
 
   bool isGrid() const { return columns > 0; }
 };

@@ -35,11 +35,11 @@ class GuardPairs {
   /// many meet already: between them is no plane, and they may pass.
   long long look(const GuardNodes& nodes, const GuardCandidates& pairs, const Contact& contact);
   void clear();
-  /// Takes out the planes of pairs for which isGone(tile of the first part, tile of the second) is true.
+  /// Takes out the planes of pairs for which isGone(pair) is true.
   template <class IsGone>
   void drop(const IsGone& isGone) {
     for (GuardPlanes* const planes : {&m_vertexFace, &m_edgeEdge}) {
-      planes->filter([&](std::size_t plane) { return !isGone(planes->tile(plane, 0), planes->tile(plane, 1)); });
+      planes->filter([&](std::size_t plane) { return !isGone(planes->pair(plane)); });
     }
   }
   bool isEmpty() const { return size() == 0; }

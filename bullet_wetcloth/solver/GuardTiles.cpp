@@ -9,23 +9,9 @@
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
-namespace {
-
-// Parts that share a node are no pair.
-template <int first>
-void addTo(const GuardPair& pair, std::vector<GuardPair>& pairs) {
-  for (int i = 0; i < first; ++i) {
-    for (int k = first; k < 4; ++k) {
-      if (pair.node[i] == pair.node[k]) return;
-    }
-  }
-  pairs.push_back(pair);
-}
-
-}  // namespace
-
 void GuardTiles::clear() {
   m_bounds.clear();
+  m_goesByNodes.clear();
   m_isImposed.clear();
   m_firstTile.clear();
   m_tiles.clear();
@@ -35,6 +21,7 @@ void GuardTiles::add(const GuardMesh& mesh, std::size_t firstNode, bool isImpose
   m_firstTile.push_back(m_tiles.size());
   for (std::size_t k = 0; k < mesh.tiles.size(); ++k) m_tiles.push_back({m_isImposed.size(), static_cast<int>(k)});
   m_isImposed.push_back(isImposed);
+  m_goesByNodes.push_back(!mesh.isGrid() && !mesh.isOfBodies);
   m_bounds.add(mesh, firstNode);
 }
 
@@ -48,21 +35,56 @@ bool GuardTiles::isWanted(std::size_t tileA, std::size_t tileB) const {
 
 void GuardTiles::findPairs(const GuardNodes& nodes, btScalar near, const Scope& scope, GuardCandidates& pairs) {
   m_bounds.boundTiles(nodes, near);
+  m_planes.begin(nodes, near);
   m_scope = scope;
   m_pairs = &pairs;
   m_isFlat.assign(m_isImposed.size(), false);
   m_isNew.assign(m_tiles.size(), true);
+  m_isNewNode.assign(nodes.expected.size(), 0);
+  m_newCells.resize(m_tiles.size());
+  m_areAllNew = true;
   findPairs();
 }
 
 void GuardTiles::findPairsAgain(const std::vector<int>& changed, GuardCandidates& pairs) {
   m_pairs = &pairs;
   m_isNew.assign(m_tiles.size(), false);
-  for (const int node : changed) markTilesOf(node);
-  for (std::size_t tile = 0; tile < m_tiles.size(); ++tile) {
-    if (m_isNew[tile]) m_bounds.boundTile(m_bounds.cloths()[m_tiles[tile].cloth], m_tiles[tile].index);
+  std::fill(m_isNewNode.begin(), m_isNewNode.end(), static_cast<unsigned char>(0));
+  for (const int node : changed) {
+    m_isNewNode[toSize(node)] = 1;
+    markTilesOf(node);
   }
+  for (std::size_t tile = 0; tile < m_tiles.size(); ++tile) {
+    if (!m_isNew[tile]) continue;
+    m_bounds.boundTile(m_bounds.cloths()[m_tiles[tile].cloth], m_tiles[tile].index);
+    boundNewCells(tile);
+    if (m_bounds.cloths()[m_tiles[tile].cloth].mesh->isOfBodies) m_planes.forget();
+  }
+  m_bounds.renewPatches();
+  m_areAllNew = false;
   findPairs();
+}
+
+bool GuardTiles::hasNew(const Cloth& cloth, const GuardMesh::Face& face) const {
+  return std::any_of(std::begin(face.node), std::end(face.node),
+                     [&](int node) { return m_isNewNode[toSize(cloth.firstNode + node)] != 0; });
+}
+
+bool GuardTiles::hasNew(const GuardPair& pair) const {
+  return std::any_of(std::begin(pair.node), std::end(pair.node),
+                     [&](int node) { return m_isNewNode[toSize(node)] != 0; });
+}
+
+void GuardTiles::boundNewCells(std::size_t tile) {
+  const Cloth& cloth = m_bounds.cloths()[m_tiles[tile].cloth];
+  const GuardMesh::Tile& parts = cloth.mesh->tiles[toSize(m_tiles[tile].index)];
+  m_newCells[tile] = boxOf(tile);
+  if (!m_goesByNodes[m_tiles[tile].cloth]) return;
+  m_newCells[tile] = GuardBox();
+  for (int cell = parts.cell; cell < parts.endCell; ++cell) {
+    const GuardMesh::Face& face = cloth.mesh->faces[toSize(cloth.mesh->cells[toSize(cell)].face)];
+    if (hasNew(cloth, face)) m_newCells[tile].include(m_bounds.cell(cloth, cell));
+  }
 }
 
 void GuardTiles::markTilesOf(int node) {
@@ -77,6 +99,16 @@ void GuardTiles::markTilesOf(int node) {
   }
 }
 
+// Of a grid what is left out stands in for many pairs, and all of two tiles is looked at again.
+bool GuardTiles::goByNodes(std::size_t tileA, std::size_t tileB) const {
+  return m_goesByNodes[m_tiles[tileA].cloth] || m_goesByNodes[m_tiles[tileB].cloth];
+}
+
+bool GuardTiles::isLookedAtAgain(const GuardPair& pair) const {
+  if (goByNodes(toSize(pair.tile[0]), toSize(pair.tile[1]))) return hasNew(pair);
+  return areLookedAtAgain(pair.tile[0], pair.tile[1]);
+}
+
 // Whether bounds of a new tile had a say in what was found of these two.
 bool GuardTiles::areLookedAtAgain(int tileA, int tileB) const {
   const Tile& a = m_tiles[toSize(tileA)];
@@ -85,10 +117,7 @@ bool GuardTiles::areLookedAtAgain(int tileA, int tileB) const {
   if (a.cloth != b.cloth) return false;
   const GuardMesh& mesh = *m_bounds.cloths()[a.cloth].mesh;
   const auto isNew = [&](int tile) { return m_isNew[m_firstTile[a.cloth] + toSize(tile)]; };
-  if (!mesh.isGrid()) {
-    return !mesh.patches.empty() &&
-           std::any_of(mesh.tilesOfPatches[toSize(a.index)].begin(), mesh.tilesOfPatches[toSize(a.index)].end(), isNew);
-  }
+  if (!mesh.isGrid()) return m_bounds.wereInAFlatPatch(m_bounds.cloths()[a.cloth], a.index, b.index);
   const GridRectangle around = GuardGrid{mesh}.tilesAround(a.index, b.index);
   if (!GuardBounds::areNear(0, around)) return false;
   for (int row = around.firstRow; row <= around.lastRow; ++row) {
@@ -104,14 +133,44 @@ bool GuardTiles::areLookedAtAgain(int tileA, int tileB) const {
 void GuardTiles::findPairs() {
   findFlatCloths();
   sortTiles();
+  findStirredTiles();
+  std::size_t nextStirred = 0;
   for (std::size_t i = 0; i < m_sorted.size(); ++i) {
     const std::size_t one = toSize(m_sorted[i]);
-    const GuardBox& box = boxOf(one);
-    for (std::size_t k = i; k < m_sorted.size(); ++k) {
-      const std::size_t other = toSize(m_sorted[k]);
-      if (boxOf(other).low[m_axis] > box.high[m_axis]) break;
-      if (box.overlaps(boxOf(other))) lookAtNearTiles(std::min(one, other), std::max(one, other));
+    const btScalar end = boxOf(one).high[m_axis];
+    while (nextStirred < m_stirred.size() && m_stirred[nextStirred] < i) ++nextStirred;
+    if (m_isStirred[one]) {
+      for (std::size_t k = i; k < m_sorted.size(); ++k) {
+        if (boxOf(toSize(m_sorted[k])).low[m_axis] > end) break;
+        lookAtPair(one, toSize(m_sorted[k]));
+      }
+    } else {
+      for (std::size_t k = nextStirred; k < m_stirred.size(); ++k) {
+        const std::size_t other = toSize(m_sorted[m_stirred[k]]);
+        if (boxOf(other).low[m_axis] > end) break;
+        lookAtPair(one, other);
+      }
     }
+  }
+}
+
+void GuardTiles::lookAtPair(std::size_t one, std::size_t other) {
+  if (boxOf(one).overlaps(boxOf(other))) lookAtNearTiles(std::min(one, other), std::max(one, other));
+}
+
+// Of a grid all tiles, if one is new.
+void GuardTiles::findStirredTiles() {
+  m_isStirred = m_isNew;
+  for (std::size_t c = 0; c < m_firstTile.size() && !m_areAllNew; ++c) {
+    const Cloth& cloth = m_bounds.cloths()[c];
+    const auto first = m_isStirred.begin() + static_cast<std::ptrdiff_t>(m_firstTile[c]);
+    const auto end = first + static_cast<std::ptrdiff_t>(cloth.mesh->tiles.size());
+    const bool areAll = m_goesByNodes[c] ? m_bounds.isAnyPatchLost() : std::find(first, end, true) != end;
+    if (areAll) std::fill(first, end, true);
+  }
+  m_stirred.clear();
+  for (std::size_t k = 0; k < m_sorted.size(); ++k) {
+    if (m_isStirred[toSize(m_sorted[k])]) m_stirred.push_back(k);
   }
 }
 
@@ -149,7 +208,14 @@ void GuardTiles::lookAtNearTiles(std::size_t a, std::size_t b) {
   const bool isSelf = m_tiles[a].cloth == m_tiles[b].cloth;
   if (!isWanted(a, b)) return;
   if (isSelf && m_isFlat[m_tiles[a].cloth]) return;
-  if (!areLookedAtAgain(static_cast<int>(a), static_cast<int>(b))) return;
+  m_areOnlyNew = false;
+  if (!m_areAllNew) {
+    if (!areLookedAtAgain(static_cast<int>(a), static_cast<int>(b))) return;
+    m_areOnlyNew = goByNodes(a, b) && !(isSelf && m_bounds.wereInAFlatPatch(cloth, m_tiles[a].index, m_tiles[b].index));
+    const bool areNear =
+        (m_isNew[a] && m_newCells[a].overlaps(boxOf(b))) || (m_isNew[b] && m_newCells[b].overlaps(boxOf(a)));
+    if (m_areOnlyNew && !areNear) return;
+  }
   if (isSelf && areFlat(cloth, m_tiles[a].index, m_tiles[b].index)) return;
   m_pairOfTiles[0] = static_cast<int>(a);
   m_pairOfTiles[1] = static_cast<int>(b);
@@ -174,24 +240,65 @@ void GuardTiles::lookAtTiles(std::size_t a, std::size_t b) {
     return lookAtSquares(clothA, {0, tileA / meshA.tileColumns, tileA % meshA.tileColumns}, clothB,
                          {0, tileB / meshB.tileColumns, tileB % meshB.tileColumns});
   }
-  findCellsIn(clothA, tileA, m_bounds.tile(clothB, tileB), m_cells[0]);
-  findCellsIn(clothB, tileB, m_bounds.tile(clothA, tileA), m_cells[1]);
+  findCellsIn(a, m_bounds.tile(clothB, tileB), m_cells[0]);
+  if (m_areOnlyNew && !m_isNew[b]) keepNew(m_cells[0]);
+  if (meshB.isOfBodies && meshB.shellOfTile[toSize(tileB)] >= 0) {
+    leaveOutBeyond(clothA, clothB, meshB.shellOfTile[toSize(tileB)], m_cells[0]);
+  }
+  if (m_cells[0].empty()) return;
+  GuardBox inB;
+  for (const NearCell& near : m_cells[0]) inB.include(*near.box);
+  findCellsIn(b, inB, m_cells[1]);
+  if (m_areOnlyNew && !m_isNew[a]) keepNew(m_cells[1]);
   for (const NearCell& one : m_cells[0]) {
     for (const NearCell& other : m_cells[1]) {
+      if (m_areOnlyNew && !one.isNew && !other.isNew) continue;
       if (!one.box->overlaps(*other.box) || (a == b && other.cell < one.cell)) continue;
       lookAtCells(clothA, one.cell, clothB, other.cell);
     }
   }
 }
 
+void GuardTiles::keepNew(std::vector<NearCell>& cells) {
+  cells.erase(std::remove_if(cells.begin(), cells.end(), [](const NearCell& near) { return !near.isNew; }),
+              cells.end());
+}
+
 // Of a tile those that may meet what is in this box.
-void GuardTiles::findCellsIn(const Cloth& cloth, int tile, const GuardBox& box, std::vector<NearCell>& cells) {
+void GuardTiles::findCellsIn(std::size_t tile, const GuardBox& box, std::vector<NearCell>& cells) {
   cells.clear();
-  const GuardMesh::Tile& parts = cloth.mesh->tiles[toSize(tile)];
+  const Cloth& cloth = m_bounds.cloths()[m_tiles[tile].cloth];
+  const GuardMesh::Tile& parts = cloth.mesh->tiles[toSize(m_tiles[tile].index)];
+  const bool goesByNodes = m_goesByNodes[m_tiles[tile].cloth];
   for (int cell = parts.cell; cell < parts.endCell; ++cell) {
     const GuardBox& bounds = m_bounds.cell(cloth, cell);
-    if (bounds.overlaps(box)) cells.push_back({cell, &bounds});
+    if (!bounds.overlaps(box)) continue;
+    bool isNew = m_areOnlyNew && m_isNew[tile];
+    if (isNew && goesByNodes) isNew = hasNew(cloth, cloth.mesh->faces[toSize(cloth.mesh->cells[toSize(cell)].face)]);
+    cells.push_back({cell, &bounds, isNew});
   }
+}
+
+// Cells that a plane tells from all of a body.
+void GuardTiles::leaveOutBeyond(const Cloth& cloth, const Cloth& bodies, int shell, std::vector<NearCell>& cells) {
+  const auto isBeyond = [&](const NearCell& near) {
+    const GuardMesh& mesh = *cloth.mesh;
+    const GuardMesh::Cell& parts = mesh.cells[toSize(near.cell)];
+    int nodes[4];
+    int count = 0;
+    if (mesh.isGrid()) {
+      const GridRectangle around = GuardGrid{mesh}.nodesOf(GuardGrid::kCells, parts.row, parts.column);
+      for (int row = around.firstRow; row <= around.lastRow; ++row) {
+        for (int column = around.firstColumn; column <= around.lastColumn; ++column) {
+          nodes[count++] = cloth.firstNode + row * mesh.columns + column;
+        }
+      }
+    } else {
+      for (const int node : mesh.faces[toSize(parts.face)].node) nodes[count++] = cloth.firstNode + node;
+    }
+    return m_planes.areBeyond(nodes, count, *bodies.mesh, shell, bodies.firstNode);
+  };
+  cells.erase(std::remove_if(cells.begin(), cells.end(), isBeyond), cells.end());
 }
 
 // Two that may meet: of their quarters those that may.
@@ -237,12 +344,23 @@ void GuardTiles::lookAtCells(const Cloth& a, int cellA, const Cloth& b, int cell
     for (int k = isOne ? i + 1 : beginB.edge; k < endB.edge; ++k) {
       if (!m_bounds.edge(a, i).overlaps(m_bounds.edge(b, k))) continue;
       const GuardMesh::Edge& other = b.mesh->edges[toSize(k)];
-      addTo<2>({{a.firstNode + edge.node[0], a.firstNode + edge.node[1], b.firstNode + other.node[0],
-                 b.firstNode + other.node[1]},
-                {m_pairOfTiles[0], m_pairOfTiles[1]}},
-               m_pairs->edgeEdge);
+      add<2>({{a.firstNode + edge.node[0], a.firstNode + edge.node[1], b.firstNode + other.node[0],
+               b.firstNode + other.node[1]},
+              {m_pairOfTiles[0], m_pairOfTiles[1]}},
+             m_pairs->edgeEdge);
     }
   }
+}
+
+// Parts that share a node are no pair.
+template <int first>
+void GuardTiles::add(const GuardPair& pair, std::vector<GuardPair>& pairs) const {
+  for (int i = 0; i < first; ++i) {
+    for (int k = first; k < 4; ++k) {
+      if (pair.node[i] == pair.node[k]) return;
+    }
+  }
+  if (!m_areOnlyNew || hasNew(pair)) pairs.push_back(pair);
 }
 
 // The vertices of a cell and the faces of another.
@@ -257,7 +375,7 @@ void GuardTiles::verticesAndFaces(const Cloth& a, int cellA, const Cloth& b, int
     for (int k = beginB.face; k < endB.face; ++k) {
       if (!box.overlaps(m_bounds.face(b, k))) continue;
       const GuardMesh::Face& face = b.mesh->faces[toSize(k)];
-      addTo<1>(
+      add<1>(
           {{a.firstNode + vertex, b.firstNode + face.node[0], b.firstNode + face.node[1], b.firstNode + face.node[2]},
            {m_pairOfTiles[0], m_pairOfTiles[1]}},
           m_pairs->vertexFace);

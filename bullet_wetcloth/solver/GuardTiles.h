@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/solver/GuardBounds.h"
 #include "bullet_wetcloth/solver/GuardMesh.h"
 #include "bullet_wetcloth/solver/GuardNodes.h"
+#include "bullet_wetcloth/solver/SupportPlanes.h"
 
 #include <cstddef>
 #include <vector>
@@ -31,10 +32,10 @@ class GuardTiles {
   void add(const GuardMesh& mesh, std::size_t firstNode, bool isImposed = false);
   /// Appends the pairs that may meet or come nearer than this [m]. A pair whose parts share a node is none.
   void findPairs(const GuardNodes& nodes, btScalar near, const Scope& scope, GuardCandidates& pairs);
-  /// After these of the nodes are expected elsewhere: appends the pairs of all tiles of which that may change
-  /// something. What was found earlier of two tiles that areLookedAtAgain() is void.
+  /// After these of the nodes are expected elsewhere: appends the pairs of which that may change something. What was
+  /// found earlier of those that isLookedAtAgain() is void.
   void findPairsAgain(const std::vector<int>& changed, GuardCandidates& pairs);
-  bool areLookedAtAgain(int tileA, int tileB) const;
+  bool isLookedAtAgain(const GuardPair& pair) const;
 
  private:
   using Cloth = GuardBounds::Cloth;
@@ -46,6 +47,7 @@ class GuardTiles {
   struct NearCell {
     int cell;
     const GuardBox* box;
+    bool isNew;
   };
 
   // Of a grid.
@@ -59,24 +61,43 @@ class GuardTiles {
     return m_bounds.tile(m_bounds.cloths()[m_tiles[tile].cloth], m_tiles[tile].index);
   }
   bool isWanted(std::size_t tileA, std::size_t tileB) const;
+  bool areLookedAtAgain(int tileA, int tileB) const;
+  bool goByNodes(std::size_t tileA, std::size_t tileB) const;
+  bool hasNew(const GuardPair& pair) const;
+  bool hasNew(const Cloth& cloth, const GuardMesh::Face& face) const;
   void markTilesOf(int node);
+  void boundNewCells(std::size_t tile);
+  void findStirredTiles();
   void findFlatCloths();
   void sortTiles();
   void findPairs();
+  void lookAtPair(std::size_t one, std::size_t other);
   void lookAtNearTiles(std::size_t a, std::size_t b);
   bool areFlat(const Cloth& cloth, int tileA, int tileB);
   void lookAtTiles(std::size_t a, std::size_t b);
-  void findCellsIn(const Cloth& cloth, int tile, const GuardBox& box, std::vector<NearCell>& cells);
+  void findCellsIn(std::size_t tile, const GuardBox& box, std::vector<NearCell>& cells);
+  static void keepNew(std::vector<NearCell>& cells);
+  void leaveOutBeyond(const Cloth& cloth, const Cloth& bodies, int shell, std::vector<NearCell>& cells);
   void lookAtSquares(const Cloth& a, const Square& squareA, const Cloth& b, const Square& squareB);
   void lookAtCells(const Cloth& a, int cellA, const Cloth& b, int cellB);
   void verticesAndFaces(const Cloth& a, int cellA, const Cloth& b, int cellB);
+  template <int first>
+  void add(const GuardPair& pair, std::vector<GuardPair>& pairs) const;
 
   GuardBounds m_bounds;
+  SupportPlanes m_planes;
   std::vector<std::size_t> m_firstTile;  // of each cloth
   std::vector<bool> m_isImposed;         // of each cloth
   std::vector<bool> m_isFlat;            // of each cloth
   std::vector<Tile> m_tiles;
-  std::vector<bool> m_isNew;  // of each tile: what is expected of its nodes
+  std::vector<bool> m_goesByNodes;  // of each cloth: pairs are looked at again that have a node of which that is so
+  std::vector<bool> m_isNew;        // of each tile: what is expected of its nodes
+  std::vector<unsigned char> m_isNewNode;  // of each node
+  std::vector<GuardBox> m_newCells;        // of each tile that is new, where cloths go by nodes: around those that are
+  std::vector<bool> m_isStirred;           // of each tile: what was found of it may be another
+  std::vector<std::size_t> m_stirred;      // of m_sorted
+  bool m_areAllNew = true;
+  bool m_areOnlyNew = false;  // pairs with a new node are wanted, of two tiles
   std::vector<int> m_sorted;  // tiles, by where their boxes begin along an axis
   int m_axis = 0;
   std::vector<NearCell> m_cells[2];  // of two tiles those that may meet

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Zlib
+#include "bullet_wetcloth/solver/SupportPlanes.h"
+
+#include "bullet_wetcloth/bullet/Index.h"
+#include "bullet_wetcloth/numerics/BestLanes.h"
+#include "bullet_wetcloth/numerics/Lanes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+namespace {
+
+constexpr btScalar kOneNormal = btScalar(1 - 1e-6);  // cosine between normals that are one
+const btScalar kAlongAnyAxis = std::sqrt(btScalar(3));
+
+btVector3 asVector(const GuardNodes::Place& place) { return btVector3(place.at[0], place.at[1], place.at[2]); }
+btVector3 middleOfWay(const GuardNodes::Way& way) { return (asVector(way.start) + asVector(way.end)) / 2; }
+
+}  // namespace
+
+// Of a part's nodes: where they are at the start and at the end, and how far beyond a plane they have to be.
+struct SupportPlanes::Ways {
+  btVector3 place[8];
+  int count = 0;
+  btScalar wanted = 0;
+  btVector3 middle = btVector3(0, 0, 0);
+};
+
+void SupportPlanes::begin(const GuardNodes& nodes, btScalar near) {
+  m_nodes = &nodes;
+  m_near = near;
+  forget();
+}
+
+void SupportPlanes::forget() {
+  for (Shell& shell : m_shells) {
+    shell.isFound = false;
+    shell.last = 0;
+  }
+}
+
+bool SupportPlanes::areBeyond(const int* nodes, int count, const GuardMesh& mesh, int number, int firstNode) {
+  if (m_shells.size() <= toSize(number)) m_shells.resize(toSize(number) + 1);
+  Shell& shell = m_shells[toSize(number)];
+  if (!shell.isFound) find(mesh, mesh.shells[toSize(number)], firstNode, shell);
+  if (shell.blocks.empty()) return false;
+  Ways ways;
+  btScalar slack = 0;
+  for (int k = 0; k < count; ++k) {
+    const GuardNodes::Way& way = m_nodes->expected[toSize(nodes[k])];
+    ways.place[ways.count++] = asVector(way.start);
+    ways.place[ways.count++] = asVector(way.end);
+    slack = std::max(slack, way.start.at[3]);
+  }
+  ways.wanted = m_near + kAlongAnyAxis * slack;
+  if (isBeyond(shell, shell.last, ways)) return true;
+  for (int k = 0; k < ways.count; ++k) ways.middle += ways.place[k];
+  const std::size_t best = farthest(shell, ways.middle / static_cast<btScalar>(ways.count));
+  if (best == shell.last || !isBeyond(shell, best, ways)) return false;
+  shell.last = best;
+  return true;
+}
+
+bool SupportPlanes::isBeyond(const Shell& shell, std::size_t plane, const Ways& ways) {
+  const Block& block = shell.blocks[plane / kLanes];
+  const std::size_t lane = plane % kLanes;
+  btScalar least = std::numeric_limits<btScalar>::infinity();
+  for (int k = 0; k < ways.count; ++k) {
+    const btVector3& place = ways.place[k];
+    least = std::min(least, block.normal[0][lane] * place.x() + block.normal[1][lane] * place.y() +
+                                block.normal[2][lane] * place.z());
+  }
+  return least - block.offset[lane] > ways.wanted;
+}
+
+// Of each lane the block whose plane a point is farthest beyond, and how far [m].
+struct SupportPlanes::Farthest {
+  const std::vector<Block>& blocks;
+  const btVector3& point;
+  btScalar (&most)[kLanes];
+  btScalar (&where)[kLanes];
+
+  template <class Lanes>
+  WETCLOTH_INLINE void run() const {
+    const Lanes x = everywhere<Lanes>(point.x());
+    const Lanes y = everywhere<Lanes>(point.y());
+    const Lanes z = everywhere<Lanes>(point.z());
+    for (std::size_t lane = 0; lane < kLanes; lane += kLaneCount<Lanes>) {
+      Lanes farthest = everywhere<Lanes>(-std::numeric_limits<btScalar>::infinity());
+      Lanes at = everywhere<Lanes>(0);
+      for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const Block& block = blocks[b];
+        const Lanes distance = load<Lanes>(block.normal[0] + lane) * x + load<Lanes>(block.normal[1] + lane) * y +
+                               load<Lanes>(block.normal[2] + lane) * z - load<Lanes>(block.offset + lane);
+        at = choose(distance > farthest, everywhere<Lanes>(static_cast<btScalar>(b)), at);
+        farthest = choose(distance > farthest, distance, farthest);
+      }
+      store(most + lane, farthest);
+      store(where + lane, at);
+    }
+  }
+};
+
+// The plane that a point is farthest beyond, or least behind.
+std::size_t SupportPlanes::farthest(const Shell& shell, const btVector3& point) {
+  btScalar most[kLanes];
+  btScalar where[kLanes];
+  runOnBestLanes(Farthest{shell.blocks, point, most, where});
+  const std::size_t best = static_cast<std::size_t>(std::max_element(most, most + kLanes) - most);
+  return static_cast<std::size_t>(where[best]) * kLanes + best;
+}
+
+void SupportPlanes::find(const GuardMesh& mesh, const GuardMesh::Shell& of, int firstNode, Shell& shell) const {
+  const GuardNodes::Way* const ways = &m_nodes->expected[toSize(firstNode)];
+  shell.isFound = true;
+  shell.blocks.clear();
+  btVector3 centre(0, 0, 0);
+  btScalar slack = 0;
+  for (int node = of.node; node < of.endNode; ++node) {
+    centre += middleOfWay(ways[node]) / static_cast<btScalar>(of.endNode - of.node);
+    slack = std::max(slack, ways[node].start.at[3]);
+  }
+  std::size_t count = 0;
+  btVector3 before(0, 0, 0);
+  for (int face = of.face; face < of.endFace; ++face) {
+    const int(&nodes)[3] = mesh.faces[toSize(face)].node;
+    const btVector3 corner = middleOfWay(ways[nodes[0]]);
+    btVector3 normal = (middleOfWay(ways[nodes[1]]) - corner).cross(middleOfWay(ways[nodes[2]]) - corner);
+    const btScalar length = normal.length();
+    if (!(length > 0)) continue;
+    normal /= normal.dot(corner - centre) < 0 ? -length : length;
+    if (normal.dot(before) > kOneNormal) continue;  // of one polygon
+    before = normal;
+    const std::size_t first = count++ % kLanes;
+    if (first == 0) shell.blocks.emplace_back();
+    Block& block = shell.blocks.back();
+    for (std::size_t lane = first; lane < kLanes; ++lane) {
+      for (int axis = 0; axis < 3; ++axis) block.normal[axis][lane] = normal[axis];
+    }
+  }
+  for (Block& block : shell.blocks) {
+    std::fill_n(block.offset, kLanes, -std::numeric_limits<btScalar>::infinity());
+    for (int node = of.node; node < of.endNode; ++node) {
+      for (const GuardNodes::Place* const place : {&ways[node].start, &ways[node].end}) {
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+          const btScalar along = block.normal[0][lane] * place->at[0] + block.normal[1][lane] * place->at[1] +
+                                 block.normal[2][lane] * place->at[2];
+          block.offset[lane] = along > block.offset[lane] ? along : block.offset[lane];
+        }
+      }
+    }
+    for (btScalar& offset : block.offset) offset += kAlongAnyAxis * slack;
+  }
+}
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Zlib
+#pragma once
+
+#include "bullet_wetcloth/Precision.h"
+#include "bullet_wetcloth/solver/GuardMesh.h"
+#include "bullet_wetcloth/solver/GuardNodes.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace wetcloth {
+inline namespace WETCLOTH_PRECISION {
+
+/// Supporting planes of rigid bodies: each along a face, with all of the body behind it for as long as its nodes keep
+/// to what is expected of them. What is beyond one of them meets nothing of the body. Convex bodies have one for each
+/// place around them.
+class SupportPlanes {
+ public:
+  /// Bodies are expected elsewhere.
+  void forget();
+  /// Forgets all planes. The nodes live as long as planes are asked for; parts are near at this distance [m].
+  void begin(const GuardNodes& nodes, btScalar near);
+  /// Whether a part with up to four of the nodes is beyond a plane of this shell of a mesh whose nodes begin with
+  /// `firstNode`, and not near it, for all of the expected motion.
+  bool areBeyond(const int* nodes, int count, const GuardMesh& mesh, int shell, int firstNode);
+
+ private:
+  static constexpr std::size_t kLanes = 8;
+  struct Block {
+    btScalar normal[3][kLanes];
+    btScalar offset[kLanes];
+  };
+  struct Shell {
+    bool isFound = false;
+    std::vector<Block> blocks;
+    std::size_t last = 0;  // plane that something was beyond
+  };
+  struct Ways;
+  struct Farthest;
+
+  void find(const GuardMesh& mesh, const GuardMesh::Shell& of, int firstNode, Shell& shell) const;
+  static std::size_t farthest(const Shell& shell, const btVector3& point);
+  static bool isBeyond(const Shell& shell, std::size_t plane, const Ways& ways);
+
+  std::vector<Shell> m_shells;
+  const GuardNodes* m_nodes = nullptr;
+  btScalar m_near = 0;
+};
+
+}  // namespace WETCLOTH_PRECISION
+}  // namespace wetcloth
