@@ -15,6 +15,7 @@ function(wetcloth_discover_test_files target)
     OUTPUT "${script}"
     CONTENT
       "set(program \"$<TARGET_FILE:${target}>\")
+set(emulator \"${CMAKE_CROSSCOMPILING_EMULATOR}\")
 set(prefix \"${arg_PREFIX}\")
 set(directory \"${arg_WORKING_DIRECTORY}\")
 set(listing \"${CMAKE_CURRENT_BINARY_DIR}/${target}-tests.json\")

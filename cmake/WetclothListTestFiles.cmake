@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Zlib
-# Run by CTest, with `program`, `prefix`, `directory`, `listing` and `longest` set: see WetclothDiscoverTestFiles.cmake.
+# Run by CTest, with `program`, `emulator`, `prefix`, `directory`, `listing` and `longest` set: see WetclothDiscoverTestFiles.cmake.
 cmake_policy(VERSION 3.21)  # CTest has none
 if(NOT EXISTS "${program}")
   add_test("${prefix}NOT_BUILT" "${program}")
   return()
 endif()
 execute_process(
-  COMMAND "${program}" --gtest_list_tests "--gtest_output=json:${listing}"
+  COMMAND ${emulator} "${program}" --gtest_list_tests "--gtest_output=json:${listing}"
   WORKING_DIRECTORY "${directory}"
   OUTPUT_QUIET
   RESULT_VARIABLE status)
@@ -42,7 +42,7 @@ endforeach()
 set(all_skipped "\\[  PASSED  \\] 0 tests\\.\n(\\[  SKIPPED \\][^\n]*\n)+$")
 foreach(name IN LISTS names)
   list(JOIN "suites_${name}" ":" filter)
-  add_test("${prefix}${name}" "${program}" "--gtest_filter=${filter}")
+  add_test("${prefix}${name}" ${emulator} "${program}" "--gtest_filter=${filter}")
   set_tests_properties("${prefix}${name}" PROPERTIES WORKING_DIRECTORY "${directory}" TIMEOUT 600
                                                      SKIP_REGULAR_EXPRESSION "${all_skipped}"
                                                      FAIL_REGULAR_EXPRESSION "Running 0 tests")

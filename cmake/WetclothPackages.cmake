@@ -56,9 +56,10 @@ macro(wetcloth_describe_debian_packages)
   set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "ffmpeg, gnuplot-nox")
   set(CPACK_DEBIAN_COMMAND_DESCRIPTION "Runs scenes of wet cloth, measures and draws them")
 
+  # For the packages alone.
   foreach(component IN LISTS CPACK_COMPONENTS_ALL)
     string(TOUPPER ${component} COMPONENT)
-    install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" COMPONENT ${component} RENAME copyright
+    install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" COMPONENT ${component} EXCLUDE_FROM_ALL RENAME copyright
             DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/doc/${CPACK_DEBIAN_${COMPONENT}_PACKAGE_NAME}")
   endforeach()
 endmacro()

@@ -19,7 +19,11 @@ namespace command {
 namespace {
 
 std::filesystem::path pathOf(Precision precision) {
-  return programFolder() / (precision == Precision::float64 ? "wetcloth-float64" : "wetcloth");
+  std::string name = precision == Precision::float64 ? "wetcloth-float64" : "wetcloth";
+#ifdef _WIN32
+  name += ".exe";
+#endif
+  return programFolder() / name;
 }
 
 /// Two programs of the same precision under both names must not start each other for ever.

@@ -3,25 +3,48 @@
 
 #include <gtest/gtest.h>
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <stdexcept>
+
+#ifndef _WIN32
+#include <sys/wait.h>
+#endif
 
 namespace wetcloth_test::cli {
 namespace {
+
+#ifdef _WIN32
+
+constexpr const char* kNothing = "NUL";
+
+std::string quoted(const std::string& word) { return '"' + word + '"'; }
+
+/// Its shell takes off one pair of quotes.
+int statusOf(const std::string& line) { return std::system(quoted(line).c_str()); }
+
+#else
+
+constexpr const char* kNothing = "/dev/null";
 
 std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char character : word) text += character == '\'' ? std::string("'\\''") : std::string(1, character);
   return text + "'";
 }
+
+int statusOf(const std::string& line) {
+  const int status = std::system(line.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+#endif
 
 std::string contents(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -34,10 +57,9 @@ Outcome runProgram(const std::vector<std::string>& words) {
   const TemporaryDirectory directory;
   std::string line;
   for (const std::string& word : words) line += quoted(word) + " ";
-  line += ">" + quoted(directory.path("out")) + " 2>" + quoted(directory.path("err")) + " </dev/null";
-  const int status = std::system(line.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(directory.path("out")),
-          contents(directory.path("err"))};
+  line += ">" + quoted(directory.path("out")) + " 2>" + quoted(directory.path("err")) + " <" + kNothing;
+  const int status = statusOf(line);
+  return {status, contents(directory.path("out")), contents(directory.path("err"))};
 }
 
 Outcome runWetcloth(const std::vector<std::string>& arguments) {
@@ -99,9 +121,12 @@ Json readJson(const std::string& file) { return Json::parse(contents(file)); }
 Json smallScene() { return readJson(WETCLOTH_SOURCE_DIR "/tests/scenes/small.json"); }
 
 TemporaryDirectory::TemporaryDirectory() {
-  std::string name = (std::filesystem::temp_directory_path() / "wetcloth_test_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
-  m_path = name;
+  // Names are of one length: where memory lies may follow from it, and Bullet's trees from that.
+  std::random_device random;
+  std::uniform_int_distribution<std::uint64_t> sixteenDigits(1000000000000000, 9999999999999999);
+  const auto name = std::filesystem::temp_directory_path() / ("wetcloth_test_" + std::to_string(sixteenDigits(random)));
+  if (!std::filesystem::create_directory(name)) throw std::runtime_error("cannot make " + name.string());
+  m_path = name.string();
 }
 
 TemporaryDirectory::~TemporaryDirectory() {

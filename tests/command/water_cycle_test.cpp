@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Zlib
 #include "tests/command/WaterScene.h"
+#include "tests/support/Pi.h"
 
 #include <gtest/gtest.h>
 
@@ -177,7 +178,7 @@ TEST(WaterCycle, DiffusionFromAWetEdgeIsTheErrorFunctions) {
     const Json result = runScene(scene);
     // Of a wall kept at 1 in a half space: 2 sqrt(D t / pi) of what a unit of length holds (Crank 1975). The edge is
     // full from the start and has half a cell; the rest is the mesh's 0.025 m and the step's 0.02 s.
-    const double expected = capacity * 2 * std::sqrt(diffusivity * timeOf(result) / M_PI);
+    const double expected = capacity * 2 * std::sqrt(diffusivity * timeOf(result) / kPi);
     EXPECT_NEAR(ledger(result, "absorbed"), expected, 0.02 * expected) << diffusion;
     EXPECT_LE(saturation(result, "max"), 1);
     EXPECT_GE(saturation(result, "min"), 0);

@@ -2,6 +2,7 @@
 #include "bullet_wetcloth/solver/GuardStops.h"
 
 #include "tests/solver/GuardScene.h"
+#include "tests/support/Pi.h"
 
 #include <gtest/gtest.h>
 
@@ -80,7 +81,7 @@ TEST(GuardStops, AStripThatIsWrungIsStoppedInItsMiddle) {
   btSoftBody& body = scene.add(patch);
   std::vector<int> stopped;
   for (int step = 0; step < 150 && stopped.empty(); ++step) {
-    const double angle = 2 * M_PI * (step + 1) / 60;
+    const double angle = 2 * kPi * (step + 1) / 60;
     for (int i = 0; i < patch.columns; ++i) {
       const double x = -0.15 + 0.3 * i / (patch.columns - 1);
       body.m_nodes[patch.node(i, patch.rows - 1)].m_x =

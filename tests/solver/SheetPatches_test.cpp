@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/solver/PatchBounds.h"
 #include "tests/solver/GuardScene.h"
+#include "tests/support/Pi.h"
 
 #include <gtest/gtest.h>
 
@@ -97,7 +98,7 @@ TEST(SheetPatches, AClosedBandIsNoPatch) {
   const int around = 24;
   for (int j = 0; j < 2; ++j) {
     for (int i = 0; i < around; ++i) {
-      const double angle = 2 * M_PI * i / around;
+      const double angle = 2 * kPi * i / around;
       band.places.emplace_back(btScalar(0.1 * std::cos(angle)), btScalar(0.02 * j), btScalar(0.1 * std::sin(angle)));
     }
   }
@@ -259,7 +260,7 @@ TEST(SheetPatches, WhatIsCertifiedNeverMeetsItself) {
 TEST(SheetPatches, ARampMoreThanOnceAroundIsNotCertified) {
   const Sheet sheet(24);
   const auto ramp = shaped(sheet.flat, [](const Place& x) {
-    const double angle = 8 * M_PI * x[0];  // a patch has less than half of it
+    const double angle = 8 * kPi * x[0];  // a patch has less than half of it
     const double radius = 1 + 0.5 * (x[2] + 0.5);
     return Place{radius * std::cos(angle), 0.02 * angle, -radius * std::sin(angle)};
   });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/solver/GuardScene.h"
+#include "tests/support/Pi.h"
 
 #include <algorithm>
 #include <array>
@@ -95,7 +96,7 @@ inline std::pair<btSoftBody*, btSoftBody*> addCornerThroughSheet(GuardScene& sce
 inline Triangles rolledSheet(int n, double side) {
   Triangles mesh = Triangles::of(levelSheet(n, side, btVector3(0, 0, 0)));
   const double radius = 0.03;
-  const double end = 4 * M_PI / 3;  // where it goes on straight
+  const double end = 4 * kPi / 3;  // where it goes on straight
   for (btVector3& place : mesh.places) {
     const double along = double(place.x() - place.z()) / std::sqrt(2.0);
     const double across = double(place.x() + place.z()) / std::sqrt(2.0) - side * std::sqrt(0.5) + 0.26;

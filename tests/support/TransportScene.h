@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/effects/Seepage.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/ClothScene.h"
+#include "tests/support/Pi.h"
 #include "tests/support/SoftBodies.h"
 
 #include <algorithm>
@@ -14,8 +15,6 @@
 
 namespace wetcloth_test {
 namespace transport {
-
-inline constexpr double kPi = 3.14159265358979323846;
 
 /// Points and triangles of a cloth at rest.
 struct Mesh {
