@@ -3,10 +3,9 @@
 
 #include "command/scene/PatchReader.h"
 
-#include "bullet_wetcloth/water/DryMass.h"
-
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace command {
 namespace {
@@ -16,11 +15,25 @@ using Edge = ClothPatch::Edge;
 
 bool isAlongU(Edge edge) { return edge == Edge::bottom || edge == Edge::top; }
 
+/// Of each node, a third of each of its faces [m^2].
+std::vector<double> nodeAreas(const btSoftBody& body) {
+  std::vector<double> areas(static_cast<std::size_t>(body.m_nodes.size()), 0);
+  const btSoftBody::Node* const first = &body.m_nodes[0];
+  for (int f = 0; f < body.m_faces.size(); ++f) {
+    const auto& corners = body.m_faces[f].m_n;
+    const btVector3 across = (corners[1]->m_x - corners[0]->m_x).cross(corners[2]->m_x - corners[0]->m_x);
+    for (const btSoftBody::Node* corner : corners) {
+      areas[static_cast<std::size_t>(corner - first)] += static_cast<double>(across.length()) / 6;
+    }
+  }
+  return areas;
+}
+
 }  // namespace
 
 Twist::Twist(btSoftBody& body, const ClothPatch& patch, const TwistScene& scene) : m_body(body), m_scene(scene) {
   m_nodes = nodesOfEdge(patch, scene.edge);
-  const std::vector<double> areas = wetcloth::nodeAreas(body);
+  const std::vector<double> areas = nodeAreas(body);
   for (const int node : m_nodes) {
     m_starts.push_back(body.m_nodes[node].m_x);
     m_dryMasses.push_back(patch.arealDensity * areas[static_cast<std::size_t>(node)]);
