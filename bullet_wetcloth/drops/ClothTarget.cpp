@@ -133,11 +133,12 @@ double ClothTarget::tooMuch(const Hit& hit, double mass) const {
   return rest;
 }
 
-double ClothTarget::land(const Hit& hit, double mass, const Double3& velocity, const Double3* after) {
+double ClothTarget::land(const Hit& hit, double mass, const Double3& velocity, Double3* after) {
   Water& water = m_cloth->water();
   const double last = mass - (hit.weights[0] + hit.weights[1]) * mass;
   const double shares[3] = {hit.weights[0] * mass, hit.weights[1] * mass, last};
   double kept = mass;
+  double stopped = 0;  // of the rest, as far as the nodes are heavy enough to turn it [kg]
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t node = static_cast<std::size_t>(hit.nodes[k]);
     const double share = std::max(0.0, shares[k]);
@@ -145,23 +146,30 @@ double ClothTarget::land(const Hit& hit, double mass, const Double3& velocity, c
     kept -= rest;
     if (!(rest > 0)) continue;
     if (after) {
-      bounce(node, rest, velocity, *after);
+      stopped += bounce(node, rest, velocity, *after);
     } else {
       water.runOff(node, rest, velocity[0], velocity[1], velocity[2]);
     }
+  }
+  for (std::size_t k = 0; after && k < 3; ++k) {
+    (*after)[k] = velocity[k] + ((*after)[k] - velocity[k]) * (stopped / (mass - kept));
   }
   if (!m_cloth->body().isActive()) m_cloth->body().activate(true);
   return kept;
 }
 
-// What runs off leaves with the node's velocity: such a one that the node gets dm (u - u'), whatever it weighs.
-void ClothTarget::bounce(std::size_t node, double mass, const Double3& velocity, const Double3& after) {
+// A light node cannot turn a heavy drop: what the two exchange is m dm / (m + dm) (u - u'). Run-off leaves with the
+// node's own velocity, so it is told to have come with what gives the node that. Returns dm m / (m + dm) [kg].
+double ClothTarget::bounce(std::size_t node, double mass, const Double3& velocity, const Double3& after) {
   Water& water = m_cloth->water();
-  const Double3 own = asDouble(m_cloth->body().m_nodes[static_cast<int>(node)].m_v);
-  const double factor = 1 + mass / water.totalMass(node);
+  const btSoftBody::Node& target = m_cloth->body().m_nodes[static_cast<int>(node)];
+  const Double3 own = asDouble(target.m_v);
   Double3 seen;
-  for (std::size_t k = 0; k < 3; ++k) seen[k] = (velocity[k] - after[k]) * factor + own[k];
+  for (std::size_t k = 0; k < 3; ++k) seen[k] = own[k] + velocity[k] - after[k];
   water.runOffFollowed(node, mass, seen[0], seen[1], seen[2]);
+  if (target.m_im == 0) return mass;
+  const double met = water.totalMass(node);
+  return mass * met / (met + mass);
 }
 
 void ClothTarget::transferState(StateArchive& archive) {

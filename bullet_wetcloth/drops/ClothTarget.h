@@ -53,8 +53,10 @@ class ClothTarget {
   /// What of this water the nodes there have no room for [kg].
   double tooMuch(const Hit& hit, double mass) const;
   /// Water lands there with this velocity: nodes take what they have room for, with its momentum. The rest goes on with
-  /// the velocity `after`, or, without one, runs off the nodes. Returns what was taken [kg].
-  double land(const Hit& hit, double mass, const Double3& velocity, const Double3* after);
+  /// the velocity `after`, which is changed where the nodes are too light for it, or, without one, runs off the nodes.
+  /// Returns what was taken [kg].
+  /// Returns what was taken [kg].
+  double land(const Hit& hit, double mass, const Double3& velocity, Double3* after);
 
   /// Drops and faces that were looked at closely, for tests that count work.
   long long candidates() const { return m_candidates; }
@@ -63,7 +65,7 @@ class ClothTarget {
 
  private:
   void fit();
-  void bounce(std::size_t node, double mass, const Double3& velocity, const Double3& after);
+  double bounce(std::size_t node, double mass, const Double3& velocity, const Double3& after);
   void fitUptake();
   void consider(const DropPath& path, const SweptFaces::Parts<3>::Nodes& face, bool areStill, Hit& best);
 

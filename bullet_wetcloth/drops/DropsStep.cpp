@@ -175,7 +175,7 @@ double Drops::Flight::landOnCloth(const Hit& hit, const DropPath& path, const Do
   // What is hardly a drop, or has another layer of cloth before it, stays at the nodes until it is one.
   const bool goesOn = tooMuch > kLeastShare * m_state.parameters.dropMass && side.normal != Double3{0, 0, 0} &&
                       firstHit({side.onFace, side.place}, hit.cloth, hit.face.nodes[0]).isNone();
-  const Double3 after = runsOn(velocity, target.velocityAt(hit.face), side.normal);
+  Double3 after = runsOn(velocity, target.velocityAt(hit.face), side.normal);
   const double kept = target.land(hit.face, mass, velocity, goesOn ? &after : nullptr);
   m_state.accounts.taken.add(kept);
   m_state.accounts.returned.add(mass - kept);
