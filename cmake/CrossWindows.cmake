@@ -6,6 +6,8 @@ set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
 set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
 set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
 set(CMAKE_CROSSCOMPILING_EMULATOR wine)
+# Files compiled together have more sections than the older format counts.
+set(CMAKE_CXX_FLAGS_INIT -Wa,-mbig-obj)
 # Wine knows of no folders of this compiler's libraries.
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES WETCLOTH_CROSS_PREFIX)
