@@ -4,6 +4,8 @@
 #include "bullet_wetcloth/bullet/Index.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <set>
 
 namespace wetcloth {
@@ -14,6 +16,14 @@ namespace {
 constexpr double kToldAfter = 2;  // for which crossings may get no fewer before that is told [s]
 
 std::string pairs(long long count) { return std::to_string(count) + " pairs of an edge and a face of cloths"; }
+
+/// Of the edge's first node, in the world.
+std::string placeOf(const Crossing& crossing, const std::vector<ClothGuard::Cloth>& cloths) {
+  const BodyPoint place = crossingPlaceOf(cloths[toSize(crossing.cloth[0])], crossing.edge[0], btVector3(0, 0, 0));
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "(%.3f, %.3f, %.3f) m", place[0], place[1], place[2]);
+  return text.data();
+}
 
 }  // namespace
 
@@ -66,7 +76,8 @@ void Entanglements::tell(const Cloths& cloths, const ClothSolver::Guard& paramet
   std::string bodies;
   for (const int number : numbers) bodies += (bodies.empty() ? "" : ", ") + std::to_string(number);
   log("wetcloth: " + pairs(m_known) + " cross " + why + " (soft bodies of the world from 0: " + bodies +
-      "); they are " + (parameters.untangle ? "untangled" : "left as they are"));
+      "), the first near " + placeOf(m_crossings.found().front(), cloths.nodes) + "; they are " +
+      (parameters.untangle ? "untangled" : "left as they are"));
 }
 
 // Once: they go on being untangled.

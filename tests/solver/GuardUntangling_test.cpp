@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdio>
 #include <random>
 #include <sstream>
 #include <string>
@@ -60,6 +62,23 @@ TEST(GuardUntangling, ACornerThroughASheetComesBack) {
     const auto cloths = addCornerThroughSheet(scene, 0.05);
     expectUntangled(scene, {cloths.first, cloths.second});
   }
+}
+
+// The corner's tip is 5 cm below the sheet, y = 0, at (0.013, 0.008), and its edges are 3 cm long.
+TEST(GuardUntangling, TheFirstCrossingIsToldWithItsPlace) {
+  GuardScene scene(untangling(), WorldKind::softRigid, kNoGravity);
+  addCornerThroughSheet(scene, 0.05);
+  scene.step(1);
+  ASSERT_FALSE(scene.scene().messages().empty());
+  const std::string message = scene.scene().messages().front();
+  const std::string before = "the first near (";
+  const std::size_t at = message.find(before);
+  ASSERT_NE(at, std::string::npos) << message;
+  double x = 9, y = 9, z = 9;
+  ASSERT_EQ(std::sscanf(message.c_str() + at + before.size(), "%lf, %lf, %lf) m", &x, &y, &z), 3) << message;
+  EXPECT_NEAR(x, 0.013, 0.15) << message;
+  EXPECT_NEAR(y, 0, 0.06) << message;
+  EXPECT_NEAR(z, 0.008, 0.15) << message;
 }
 
 TEST(GuardUntangling, WhatWasUntangledFallsOnAndPassesNothing) {

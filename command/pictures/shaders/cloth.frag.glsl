@@ -29,12 +29,12 @@ void main() {
   float threads = pattern();
   vec3 albedo = mix(dryColour, wetColour, wet) * threads;
   float lamp = lit(place, normal);
-  float rough = max(mix(roughness.x, roughness.y, wet), 0.38);  // threads and folds finer than the mesh
+  float rough = max(mix(roughness.x, roughness.y, wet), 0.50);  // threads and folds finer than the mesh
   float rim = 1.0 - facing;
   float fuzz = rim * rim * rim;
   vec3 light = albedo * (diffuse(normal, lamp, 0.30) + 0.22 * fuzz * (1.0 - wet));
   float shine = gloss(normal, towardsEye, rough) * max(dot(normal, towardsLamp.xyz), 0.0) * lamp;
-  light += lampColour * (shine * threads * (0.5 + 0.4 * wet));
+  light += lampColour * (shine * threads * (0.5 + 0.9 * wet));
   light += sky(reflect(-towardsEye, normal)) * (wet * wet * (0.006 + 0.10 * fuzz * rim * rim));  // film of water
   colour = vec4(encoded(light), 1);
 }
