@@ -19,7 +19,9 @@ std::string pairs(long long count) { return std::to_string(count) + " pairs of a
 
 /// Of the edge's first node, in the world.
 std::string placeOf(const Crossing& crossing, const std::vector<ClothGuard::Cloth>& cloths) {
-  const BodyPoint place = crossingPlaceOf(cloths[toSize(crossing.cloth[0])], crossing.edge[0], btVector3(0, 0, 0));
+  int node = crossing.edge[0];  // among those of all cloths
+  for (int cloth = 0; cloth < crossing.cloth[0]; ++cloth) node -= cloths[toSize(cloth)].nodeCount;
+  const BodyPoint place = crossingPlaceOf(cloths[toSize(crossing.cloth[0])], node, btVector3(0, 0, 0));
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "(%.3f, %.3f, %.3f) m", place[0], place[1], place[2]);
   return text.data();

@@ -137,7 +137,7 @@ HardCase worn(std::string name, std::string about, double fastest, std::vector<L
   hardCase.group = "worn";
   hardCase.duration = 3.5;
   hardCase.quickDuration = 1.5;
-  hardCase.stepSizes = {1. / 240, 1. / 120, 1. / 60};
+  hardCase.stepSizes = {1. / 240, 1. / 60};
   return hardCase;
 }
 
