@@ -66,12 +66,9 @@ bool hasPinnedNodes(const btSoftBody& body) {
   return false;
 }
 
-// Water per wet mass around each new node: the mean over the old nodes that it is linked to, or `elsewhere`.
-std::vector<double> neighbourWaterShare(const btSoftBody& body, const Water& water, std::size_t newCount,
-                                        double elsewhere) {
-  const std::size_t oldCount = water.size();
-  std::vector<double> share(newCount, 0);
-  std::vector<int> count(newCount, 0);
+// Calls visit(new node, old node) for each link between two such, after a cut.
+template <class Visit>
+void forEachLinkToOld(const btSoftBody& body, std::size_t oldCount, const Visit& visit) {
   for (int k = 0; k < body.m_links.size(); ++k) {
     const std::size_t ends[2] = {toSize(nodeIndex(body, body.m_links[k].m_n[0])),
                                  toSize(nodeIndex(body, body.m_links[k].m_n[1]))};
@@ -79,10 +76,21 @@ std::vector<double> neighbourWaterShare(const btSoftBody& body, const Water& wat
       const std::size_t added = ends[side];
       const std::size_t old = ends[1 - side];
       if (added < oldCount || old >= oldCount) continue;
-      share[added - oldCount] += water.held(old) / water.totalMass(old);
-      ++count[added - oldCount];
+      visit(added, old);
     }
   }
+}
+
+// Water per wet mass around each new node: the mean over the old nodes that it is linked to, or `elsewhere`.
+std::vector<double> neighbourWaterShare(const btSoftBody& body, const Water& water, std::size_t newCount,
+                                        double elsewhere) {
+  const std::size_t oldCount = water.size();
+  std::vector<double> share(newCount, 0);
+  std::vector<int> count(newCount, 0);
+  forEachLinkToOld(body, oldCount, [&](std::size_t added, std::size_t old) {
+    share[added - oldCount] += water.held(old) / water.totalMass(old);
+    ++count[added - oldCount];
+  });
   for (std::size_t i = 0; i < newCount; ++i) share[i] = count[i] > 0 ? share[i] / count[i] : elsewhere;
   return share;
 }
@@ -107,17 +115,10 @@ std::vector<int> fabricsAfterCut(const btSoftBody& body, const Water& water) {
   const std::size_t oldCount = std::min(water.size(), fabrics.size());
   std::vector<std::size_t> origin(fabrics.size(), oldCount);
   for (std::size_t i = 0; i < oldCount; ++i) origin[i] = i;
-  for (int k = 0; k < body.m_links.size(); ++k) {
-    const std::size_t ends[2] = {toSize(nodeIndex(body, body.m_links[k].m_n[0])),
-                                 toSize(nodeIndex(body, body.m_links[k].m_n[1]))};
-    for (int side = 0; side < 2; ++side) {
-      const std::size_t added = ends[side];
-      const std::size_t old = ends[1 - side];
-      if (added < oldCount || old >= oldCount) continue;
-      const bool isFirst = origin[added] == oldCount;
-      if (isFirst || distance2(body, old, added) < distance2(body, origin[added], added)) origin[added] = old;
-    }
-  }
+  forEachLinkToOld(body, oldCount, [&](std::size_t added, std::size_t old) {
+    const bool isFirst = origin[added] == oldCount;
+    if (isFirst || distance2(body, old, added) < distance2(body, origin[added], added)) origin[added] = old;
+  });
   for (std::size_t i = 0; i < fabrics.size(); ++i) {
     const std::size_t from = origin[i] < oldCount ? origin[i] : nearestOldNode(body, oldCount, i);
     fabrics[i] = static_cast<int>(water.fabric(from));

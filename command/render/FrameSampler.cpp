@@ -34,8 +34,6 @@ std::vector<pictures::Texture> textureOf(const wetcloth::ClothPatch& patch) {
   return texture;
 }
 
-constexpr pictures::Rgb skinColour{0.50F, 0.30F, 0.20F};
-
 std::vector<pictures::Texture> textureOf(const TriangleMesh& mesh) {
   return mesh.sheet.empty() ? sheetOf(mesh.vertices) : mesh.sheet;
 }
@@ -128,20 +126,24 @@ std::vector<pictures::Pose> posesOf(const Scene& scene, double time) {
   return poses;
 }
 
+constexpr pictures::Rgb skinColour{0.50F, 0.30F, 0.20F};
+
 bool isSkin(const Scene& scene, std::size_t collider) {
   return std::any_of(scene.figures.begin(), scene.figures.end(), [&](const FigureScene& figure) {
     return collider >= figure.first && collider < figure.first + figure.count;
   });
 }
 
-std::vector<float> wetnessOf(const SceneWorld& world) {
+/// @param areas  of each collider that is no plane, in turn [m^2]
+std::vector<float> wetnessOf(const SceneWorld& world, const std::vector<double>& areas) {
   constexpr double wetAllOver = 0.05;  // [kg/m^2]: a film as thin as 0.05 mm has no dry places
   const std::vector<Collider>& colliders = world.scene().colliders;
   std::vector<float> wetness;
   for (std::size_t i = 0; i < colliders.size(); ++i) {
     if (colliders[i].as<Plane>() != nullptr) continue;
     const double film = world.filmOn(i);
-    wetness.push_back(film > 0 ? static_cast<float>(std::min(1.0, film / (wetAllOver * areaOf(colliders[i])))) : 0);
+    const double area = areas[wetness.size()];
+    wetness.push_back(film > 0 ? static_cast<float>(std::min(1.0, film / (wetAllOver * area))) : 0);
   }
   return wetness;
 }
@@ -207,6 +209,9 @@ void takeDrops(const SceneWorld& world, double time, pictures::Frame& frame) {
 }  // namespace
 
 FrameSampler::FrameSampler(const SceneWorld& world) : m_scenery(sceneryOf(world.scene())) {
+  for (const Collider& collider : world.scene().colliders) {
+    if (collider.as<Plane>() == nullptr) m_solidAreas.push_back(areaOf(collider));
+  }
   for (std::size_t i = 0; i < world.bodies().size(); ++i) {
     const btSoftBody& body = *world.bodies()[i];
     m_cloths.push_back(shapeOf(world.scene().cloths[i], body));
@@ -217,7 +222,7 @@ FrameSampler::FrameSampler(const SceneWorld& world) : m_scenery(sceneryOf(world.
 void FrameSampler::take(const SceneWorld& world, double time, pictures::Frame& frame) const {
   frame.time = time;
   frame.poses = posesOf(world.scene(), time);
-  frame.wetness = wetnessOf(world);
+  frame.wetness = wetnessOf(world, m_solidAreas);
   takeDrops(world, time, frame);
   frame.cloths.resize(m_cloths.size());
   for (std::size_t i = 0; i < m_cloths.size(); ++i) {

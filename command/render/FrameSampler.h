@@ -25,6 +25,7 @@ class FrameSampler {
  private:
   pictures::Scenery m_scenery;
   std::vector<pictures::ClothShape> m_cloths;
+  std::vector<double> m_solidAreas;               // of the scenery's solids [m^2]
   std::vector<std::vector<float>> m_restLengths;  // of each cloth's links [m]
 };
 
