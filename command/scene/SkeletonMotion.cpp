@@ -18,21 +18,21 @@ namespace {
 constexpr std::size_t mostFrames = 1000000;
 constexpr double mostMetres = 1e6;
 
-[[noreturn]] void rejectJoint(const aiString& name, double time, const char* what) {
-  throw std::invalid_argument("joint \"" + std::string(name.C_Str()) + "\", frame " +
-                              std::to_string(static_cast<long>(std::lround(time))) + ": " + what);
+[[noreturn]] void rejectJoint(const aiString& name, unsigned frame, const char* what) {
+  throw std::invalid_argument("joint \"" + std::string(name.C_Str()) + "\", frame " + std::to_string(frame) + ": " +
+                              what);
 }
 
 void requireFinite(const aiNodeAnim& channel) {
   for (unsigned k = 0; k < channel.mNumPositionKeys; ++k) {
     const aiVector3D& p = channel.mPositionKeys[k].mValue;
     const bool isSound = std::fabs(p.x) < mostMetres && std::fabs(p.y) < mostMetres && std::fabs(p.z) < mostMetres;
-    if (!isSound) rejectJoint(channel.mNodeName, channel.mPositionKeys[k].mTime, "its place must be a finite number");
+    if (!isSound) rejectJoint(channel.mNodeName, k, "its place must be a finite number");
   }
   for (unsigned k = 0; k < channel.mNumRotationKeys; ++k) {
     const aiQuaternion& q = channel.mRotationKeys[k].mValue;
     const bool isSound = std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z) && std::isfinite(q.w);
-    if (!isSound) rejectJoint(channel.mNodeName, channel.mRotationKeys[k].mTime, "its turn must be a finite number");
+    if (!isSound) rejectJoint(channel.mNodeName, k, "its turn must be a finite number");
   }
 }
 
