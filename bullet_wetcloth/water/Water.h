@@ -76,6 +76,8 @@ class WETCLOTH_EXPORT Water {
 
   /// Water in the node now [kg].
   double held(std::size_t node) const { return m_held[node]; }
+  /// The same of all nodes, in their order. It stays at its place until the body's nodes change in number.
+  const std::vector<double>& heldByNode() const { return m_held; }
   /// Without water [kg].
   double dryMass(std::size_t node) const { return m_dryMass[node]; }
   /// What the node holds when saturated.

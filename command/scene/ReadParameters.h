@@ -50,11 +50,21 @@ wetcloth::Exposure readExposure(JsonCursor cursor, int nodes);
 /// "velocity_m_s", the same everywhere, or "gust" of an effect; one of the two must be there.
 wetcloth::WindField readWindField(const JsonCursor& effect);
 
-/// Adds an effect of class E with these parameters.
+/// Adds an effect of class E with these parameters; one that the cloth has already gets them, and keeps what it
+/// remembers.
+template <class E>
+wetcloth::Effect& putEffect(wetcloth::WetCloth& cloth, const typename E::Parameters& parameters) {
+  E* const there = cloth.find<E>();
+  if (there == nullptr) return cloth.add<E>(parameters);
+  there->setParameters(parameters);
+  return *there;
+}
+
+/// The same with the parameters of a scene.
 template <class E>
 AddEffect addEffect(typename E::Parameters parameters) {
   return [parameters = std::move(parameters)](wetcloth::WetCloth& cloth, const Colliders&) -> wetcloth::Effect& {
-    return cloth.add<E>(parameters);
+    return putEffect<E>(cloth, parameters);
   };
 }
 

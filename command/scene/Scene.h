@@ -64,7 +64,8 @@ struct MotionScene {
 /// A scene's colliders in Bullet's world, in the scene's order.
 using Colliders = std::vector<const btCollisionObject*>;
 
-/// Adds an effect to a cloth. Throws std::invalid_argument when the library refuses it.
+/// Adds an effect to a cloth, or gives one that is there these parameters. Throws std::invalid_argument when the
+/// library refuses it.
 using AddEffect = std::function<wetcloth::Effect&(wetcloth::WetCloth& cloth, const Colliders& colliders)>;
 
 /// What an effect does with water: a scene without water does without all but those of none.

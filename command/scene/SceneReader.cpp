@@ -343,7 +343,10 @@ PrecisionWish readPrecision(const std::string& given) {
 
 Scene readScene(const std::string& given, const EffectCatalogue& catalogue) {
   const std::string file = sceneFile(given);
-  const Json json = loadJson(file);
+  return readScene(loadJson(file), file, catalogue);
+}
+
+Scene readScene(const Json& json, const std::string& file, const EffectCatalogue& catalogue) {
   JsonCursor cursor(json, file);
   cursor.expectObject(keys::scene);
   Scene scene;

@@ -13,6 +13,9 @@ namespace command {
 /// the value and what is allowed.
 Scene readScene(const std::string& given, const EffectCatalogue& catalogue = effectCatalogue());
 
+/// The same of what such a file holds. @param file  that complaints name, and that files of the scene are found beside
+Scene readScene(const Json& json, const std::string& file, const EffectCatalogue& catalogue = effectCatalogue());
+
 /// The scene's precision, and where it says so; nothing else of it is read. Throws InputError.
 PrecisionWish readPrecision(const std::string& given);
 

@@ -217,9 +217,10 @@ void SceneWorld::continueFrom(const SceneWorld& other) {
 void SceneWorld::save(std::ostream& stream) const { m_wetWorld->save(stream); }
 
 void SceneWorld::restore(std::istream& stream, int steps) {
-  m_steps = steps;
-  for (Twist& twist : m_twists) twist.moveTo(time());  // what it let go before is free, and then as it was
+  // What a twist let go before is free, and then as it was.
+  for (Twist& twist : m_twists) twist.moveTo(steps * m_scene.step);
   m_wetWorld->restore(stream);
+  m_steps = steps;
   placeColliders();
 }
 

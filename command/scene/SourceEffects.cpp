@@ -209,7 +209,7 @@ AddEffect readContactWetting(const JsonCursor& cursor, const EffectContext& cont
   return [=](wetcloth::WetCloth& cloth, const Colliders& colliders) -> wetcloth::Effect& {
     ContactWetting::Parameters placed = parameters;
     for (const Film& film : films) placed.wetBodies.push_back({colliders[film.collider], film.water});
-    return cloth.add<ContactWetting>(placed);
+    return putEffect<ContactWetting>(cloth, placed);
   };
 }
 

@@ -21,6 +21,7 @@ class Dew : public wetcloth::Effect {
 
   const char* name() const override { return "Dew"; }
   wetcloth::Stage stage() const override { return wetcloth::Stage::sources; }
+  void setParameters(const Parameters& parameters) { m_parameters = parameters; }
   void apply(wetcloth::WetCloth& cloth, const wetcloth::Step&) override {
     for (std::size_t i = 0; i < cloth.water().size(); ++i) cloth.water().absorb(i, m_parameters.water, 0, 0, 0);
   }

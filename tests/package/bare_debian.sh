@@ -28,6 +28,9 @@ cd /tmp
 wetcloth run hanging_towel.json --duration 0.1 --no-comparison
 wetcloth run hanging_towel.json --duration 0.1 --no-comparison --precision float64
 
+install /packages/python3-wetcloth_*.deb
+python3 -c 'import wetcloth; s = wetcloth.open("hanging_towel.json"); s.step(9); print(s.cloths[0].water.sum())'
+
 install g++ cmake make pkg-config /packages/libbullet-wetcloth*.deb
 cmake -S /app -B /app/build -DMETHOD=find_package -DPRECISIONS=float32,float64
 cmake --build /app/build
