@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: Zlib
 # wetcloth_compile_quickly(<target>): for code that sets up, asks and judges, while the time goes into the library and
-# into Bullet. In Release it compiles in two thirds of the time, and no result changes.
+# into Bullet. In Release it compiles in two thirds of the time, and no result changes. In a page it is to be small.
 function(wetcloth_compile_quickly target)
-  target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-O1>)
+  set(level -O1)
+  if(EMSCRIPTEN)
+    set(level -Os)
+  endif()
+  target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:${level}>)
 endfunction()
 
 # wetcloth_compile_options(<target>): what every target of this tree is compiled with, and none of its users.

@@ -54,7 +54,7 @@ library() {
 }
 
 if [[ ! -e $prefix/include/bullet ]]; then
-  source=$(source_of bullet)
+  source=${BULLET_SOURCE:-$(source_of bullet)}
   mkdir -p "$prefix/build/bullet-source"
   {
     project bullet CXX
@@ -70,11 +70,11 @@ if [[ ! -e $prefix/include/zlib.h ]]; then
   mkdir -p "$prefix/build/zlib-source"
   {
     project zlib C
-    printf 'set(CMAKE_C_STANDARD 99)\n'
+    printf 'set(CMAKE_C_STANDARD 99)\nadd_compile_definitions(HAVE_UNISTD_H)\n'
     library z "$source/[a-z]*.c" "$source"
     printf 'install(FILES "%s/zlib.h" "%s/zconf.h" DESTINATION include)\n' "$source" "$source"
   } >"$prefix/build/zlib-source/CMakeLists.txt"
   sed -i 's/GLOB_RECURSE/GLOB/' "$prefix/build/zlib-source/CMakeLists.txt"
   build "$prefix/build/zlib-source" zlib
 fi
-if [[ ! -e $prefix/include/gtest ]]; then build /usr/src/googletest googletest -DBUILD_GMOCK=OFF; fi
+if [[ ! -e $prefix/include/gtest && ${WITHOUT_TESTS:-} != yes ]]; then build /usr/src/googletest googletest -DBUILD_GMOCK=OFF; fi

@@ -4,7 +4,7 @@
 #include "Embedded.h"
 #include "command/pictures/OutputFile.h"
 #include "command/pictures/PackedRun.h"
-#include "command/pictures/View.h"
+#include "command/pictures/PageJson.h"
 
 #include <zlib.h>
 
@@ -17,9 +17,6 @@
 
 namespace pictures {
 namespace {
-
-/// The picture that the first view is fitted to; the page steps back when its own is narrower.
-constexpr float windowAspect = 1.25F;
 
 std::string deflated(const std::string& bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
@@ -59,24 +56,10 @@ std::string escaped(std::string text) {
   return text;
 }
 
-nlohmann::json jsonOf(const Scenery& scenery) {
-  nlohmann::json json{{"title", scenery.title}, {"up", scenery.up}, {"viewDirection", scenery.viewDirection}};
-  json["grounds"] = nlohmann::json::array();
-  for (const Ground& ground : scenery.grounds) {
-    json["grounds"].push_back({{"normal", ground.normal}, {"offset", ground.offset}});
-  }
-  if (scenery.waterLevel) json["waterLevel"] = *scenery.waterLevel;
-  return json;
-}
-
 nlohmann::json jsonOf(const std::vector<Series>& series) {
   nlohmann::json json = nlohmann::json::array();
   for (const Series& one : series) json.push_back({{"name", one.name}, {"unit", one.unit}, {"values", one.values}});
   return json;
-}
-
-nlohmann::json jsonOf(const View& view) {
-  return {{"eye", view.eye}, {"target", view.target}, {"fieldOfView", view.fieldOfView}, {"aspect", windowAspect}};
 }
 
 /// All text that is not ASCII, and what could end the element that it is in, as escapes.
@@ -84,26 +67,6 @@ std::string scriptSafe(const nlohmann::json& json) {
   std::string text = json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   replaceAll(text, "<", "\\u003c");
   return text;
-}
-
-nlohmann::json shaders() {
-  return {{"common", embedded::common_glsl},
-          {"light", embedded::light_glsl},
-          {"backdrop", embedded::backdrop_glsl},
-          {"clothLight", embedded::cloth_light_glsl},
-          {"casterVertex", embedded::caster_vert_glsl},
-          {"casterFragment", embedded::caster_frag_glsl},
-          {"clothVertex", embedded::cloth_vert_glsl},
-          {"clothFragment", embedded::cloth_frag_glsl},
-          {"measuredFragment", embedded::measured_frag_glsl},
-          {"solidVertex", embedded::solid_vert_glsl},
-          {"solidFragment", embedded::solid_frag_glsl},
-          {"groundVertex", embedded::ground_vert_glsl},
-          {"groundShadow", embedded::ground_shaded_glsl},
-          {"groundFragment", embedded::ground_frag_glsl},
-          {"waterFragment", embedded::water_frag_glsl},
-          {"backdropVertex", embedded::backdrop_vert_glsl},
-          {"backdropFragment", embedded::backdrop_frag_glsl}};
 }
 
 std::string script() {
@@ -121,10 +84,10 @@ std::string script() {
 void writeHtml(const FrameSequence& sequence, const std::string& path) {
   nlohmann::json head;
   const std::string bytes = packed(sequence, head);
-  head["scenery"] = jsonOf(sequence.scenery);
+  head["scenery"] = pageJson(sequence.scenery);
   head["series"] = jsonOf(sequence.series);
-  head["view"] = jsonOf(fitView(sequence.scenery, sequence.frames, windowAspect));
-  head["shaders"] = shaders();
+  head["view"] = pageJson(fitView(sequence.scenery, sequence.frames, pageAspect));
+  head["shaders"] = pageShaders();
   std::string page(embedded::page_html);
   // From the end of the page to its start: a title may look like a place.
   const std::vector<std::pair<std::string_view, std::string>> parts{{"{{bytes}}", base64(deflated(bytes))},

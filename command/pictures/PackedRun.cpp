@@ -2,6 +2,7 @@
 #include "command/pictures/PackedRun.h"
 
 #include "command/pictures/LittleEndian.h"
+#include "command/pictures/PageJson.h"
 #include "command/pictures/Rods.h"
 
 #include <algorithm>
@@ -85,17 +86,7 @@ class Packer {
   Range axis(std::size_t i) const { return {m_box.low[i], m_box.high[i]}; }
 
   void putShape(const ClothShape& shape) {
-    nlohmann::json parts = nlohmann::json::array();
-    for (const auto& [look, triangles] : shape.parts) {
-      parts.push_back({{"triangles", triangles},
-                       {"dryColour", look.dryColour},
-                       {"wetColour", look.wetColour},
-                       {"roughness", {look.dryRoughness, look.wetRoughness}}});
-    }
-    m_head["cloths"].push_back({{"name", shape.name},
-                                {"nodes", shape.texture.size()},
-                                {"triangles", shape.triangles.size()},
-                                {"parts", parts}});
+    m_head["cloths"].push_back(pageJson(shape));
     putAll(shape.texture);
     putAll(shape.triangles);
   }

@@ -72,7 +72,11 @@ class Browser:
 
     def open(self, file, ready, seconds=60):
         """Opens a file and waits until the expression `ready` is true or the page says an error."""
-        self._call('Page.navigate', url='file://' + os.path.abspath(file))
+        self.go('file://' + os.path.abspath(file), ready, seconds)
+
+    def go(self, url, ready, seconds=60):
+        """The same of any address."""
+        self._call('Page.navigate', url=url)
         end = time.monotonic() + seconds
         while time.monotonic() < end and not self.errors:
             if self.evaluate(ready):
@@ -95,9 +99,16 @@ class Browser:
             self._call('Input.dispatchKeyEvent', type=kind, key=key, code=code)
 
     def drag(self, start, end):
+        self.take(start, end)
+        self.let_go(end)
+
+    def take(self, start, end):
+        """Drags, and does not let go yet."""
         self._mouse('mousePressed', start, 1)
         self._mouse('mouseMoved', end, 1)
-        self._mouse('mouseReleased', end, 0)
+
+    def let_go(self, place):
+        self._mouse('mouseReleased', place, 0)
 
     def screenshot(self, left, top, width, height):
         """PNG of that part of the window."""

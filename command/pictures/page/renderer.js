@@ -31,6 +31,7 @@ class Program {
   constructor(gl, vertexPieces, fragmentPieces) {
     this.gl = gl;
     this.program = gl.createProgram();
+    this.locations = new Map();
     gl.attachShader(this.program, compiled(gl, gl.VERTEX_SHADER, vertexPieces));
     gl.attachShader(this.program, compiled(gl, gl.FRAGMENT_SHADER, fragmentPieces));
     gl.linkProgram(this.program);
@@ -41,8 +42,10 @@ class Program {
     gl.uniform1i(this.locationOf('shadowMap'), 0);
     gl.uniform1i(this.locationOf('colourMap'), 1);
   }
+  /** To ask the graphics card is to wait for it: it is asked once. */
   locationOf(name) {
-    return this.gl.getUniformLocation(this.program, name);
+    if (!this.locations.has(name)) this.locations.set(name, this.gl.getUniformLocation(this.program, name));
+    return this.locations.get(name);
   }
   /** @param uniforms  numbers, or arrays of 2, 3 or 16 numbers, by name */
   use(uniforms) {
@@ -69,13 +72,18 @@ class PictureBlock {
     this.buffer = gl.createBuffer();
     gl.bindBufferBase(gl.UNIFORM_BUFFER, 0, this.buffer);
   }
-  set(values) {
+  /** Where the numbers of these names are; those that no shader reads are left out. */
+  findOffsets(names) {
     const {gl, program} = this;
-    const names = Object.keys(values);
     const indices = gl.getUniformIndices(program, names);
     const known = names.filter((_, i) => indices[i] !== gl.INVALID_INDEX);
     const offsets = gl.getActiveUniforms(program, gl.getUniformIndices(program, known), gl.UNIFORM_OFFSET);
-    known.forEach((name, i) => this.data.set(values[name], offsets[i] / 4));
+    return known.map((name, i) => [name, offsets[i] / 4]);
+  }
+  set(values) {
+    const {gl} = this;
+    this.offsets = this.offsets || this.findOffsets(Object.keys(values));
+    for (const [name, offset] of this.offsets) this.data.set(values[name], offset);
     gl.bindBuffer(gl.UNIFORM_BUFFER, this.buffer);
     gl.bufferData(gl.UNIFORM_BUFFER, this.data, gl.DYNAMIC_DRAW);
   }
@@ -114,6 +122,7 @@ class ShadowMap {
         });
       }
     }
+    Object.assign(this, {low: low.slice(), high: high.slice(), right, up, towardsLamp});
     this.width = 2 ** (Math.ceil(4 * Math.log2(1.1 * Math.max(high[0] - low[0], high[1] - low[1], 1e-3))) / 4);
     const step = this.width / 64;
     this.width += 2 * step;
@@ -126,6 +135,20 @@ class ShadowMap {
     high[2] += 0.1 * this.width;
     this.depth = high[2] - low[2];
     this.clipFromWorld = product(orthographic(low, high), lookFrom([0, 0, 0], right, up, scaled(towardsLamp, -1)));
+  }
+  /** Of a plane, what can lie in shadow; null where light only grazes it. */
+  footprintOn({normal, offset}) {
+    const {low, high, right, up, towardsLamp} = this;
+    const facing = dot(normal, towardsLamp);
+    if (facing < 0.05) return null;
+    const margin = 0.05 * this.width;  // for the soft edge
+    const along = (point) => difference(point, scaled(towardsLamp, dot(normal, point) / facing));
+    const middle = along(sum(scaled(right, (low[0] + high[0]) / 2), scaled(up, (low[1] + high[1]) / 2)));
+    return {
+      middle: sum(middle, scaled(towardsLamp, offset / facing)),
+      alongU: along(scaled(right, (high[0] - low[0]) / 2 + margin)),
+      alongV: along(scaled(up, (high[1] - low[1]) / 2 + margin)),
+    };
   }
   fromWorld() {
     return product([0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0.5, 0.5, 0.5, 1], this.clipFromWorld);
@@ -202,7 +225,8 @@ class Renderer {
       cloth: program(shaders.clothVertex, light, clothLight, shaders.clothFragment),
       measured: program(shaders.clothVertex, light, clothLight, shaders.measuredFragment),
       solid: program(shaders.solidVertex, light, shaders.solidFragment),
-      ground: program(shaders.groundVertex, light, backdrop, shaders.groundShadow, shaders.groundFragment),
+      shadedGround: program(shaders.groundVertex, light, backdrop, shaders.groundShaded, shaders.groundFragment),
+      ground: program(shaders.groundVertex, light, backdrop, shaders.groundOpen, shaders.groundFragment),
       water: program(shaders.groundVertex, light, shaders.waterFragment),
       backdrop: program(shaders.backdropVertex, light, backdrop, shaders.backdropFragment),
     };
@@ -326,11 +350,18 @@ class Renderer {
   drawGrounds() {
     const {gl} = this;
     gl.enable(gl.CULL_FACE);  // who is below the ground looks through it
-    for (const {normal, offset} of this.scenery.grounds) {
-      this.programs.ground.use({normal, behind: this.behind, ...this.squareOn(normal, offset, 30 * this.size)});
-      this.square.draw();
+    for (const ground of this.scenery.grounds) {
+      const {normal, offset} = ground;
+      const shaded = this.shadowMap.footprintOn(ground);
+      if (shaded) this.drawGround(this.programs.shadedGround, normal, this.behind, shaded);
+      this.drawGround(this.programs.ground, normal, 1.01 * this.behind, this.squareOn(normal, offset, 30 * this.size));
     }
     gl.disable(gl.CULL_FACE);
+  }
+
+  drawGround(program, normal, behind, where) {
+    program.use({normal, behind, ...where});
+    this.square.draw();
   }
 
   /** Of a plane, the square below what there is to see. */
