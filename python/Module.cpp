@@ -203,6 +203,12 @@ void bindScene(py::module_& module) {
           "restore", restore, py::arg("state"),
           "Goes on from what save() returned. Arrays stay valid and show the restored state.\n\nRaises StateError when "
           "the bytes are no such state; then nothing has changed.")
+      .def("__repr__",
+           [](const PythonScene& scene) {
+             return py::str("<wetcloth.Scene {!r}, {}, {} cloths, t = {:g} s>")
+                 .format(scene.scene().name, command::nameOf(command::ownPrecision), scene.world().cloths().size(),
+                         scene.world().time());
+           })
       .def("__getitem__", clothNamed, py::arg("name"), "The cloth of that name. Raises KeyError.")
       .def_property_readonly("cloths", cloths, "Its cloths, in the order of the file.")
       .def_property_readonly(
@@ -228,6 +234,12 @@ void bindScene(py::module_& module) {
 
 void bindCloth(py::module_& module) {
   py::class_<PythonCloth>(module, "Cloth", "A cloth of a scene, and its water. Nodes are numbered as in Bullet.")
+      .def("__repr__",
+           [](const PythonCloth& cloth) {
+             return py::str("<wetcloth.Cloth {!r}, {} nodes, {:g} kg of water>")
+                 .format(cloth.scene->scene().cloths[cloth.index].name, cloth.wet().nodeCount(),
+                         cloth.wet().ledger().held);
+           })
       .def_property_readonly(
           "name", [](const PythonCloth& cloth) { return cloth.scene->scene().cloths[cloth.index].name; },
           "As the file says.")

@@ -42,7 +42,7 @@ def open(scene, precision=None):
         module = _module(precision or scene.get("precision", "float32"))
         opened = module.open_description(scene, "scene")
     else:
-        file = _found(os.fspath(scene))
+        file = _found(os.fsdecode(scene))
         opened = _module(precision or _precision_in(file)).open_file(file)
     for hint in opened._hints:
         warnings.warn(hint, stacklevel=2)

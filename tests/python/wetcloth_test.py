@@ -289,6 +289,19 @@ class Errors(unittest.TestCase):
             wetcloth.open(scene(), "float16")
 
 
+class Words(unittest.TestCase):
+    def test_they_say_what_they_are(self):
+        one = opened()
+        self.assertEqual(repr(one), "<wetcloth.Scene 'scene', %s, 1 cloths, t = 0 s>" % PRECISION)
+        self.assertEqual(repr(one.cloths[0]), "<wetcloth.Cloth 'sheet', 36 nodes, 0 kg of water>")
+
+    def test_everything_is_explained(self):
+        for kind in (type(opened()), type(opened().cloths[0])):
+            for name in dir(kind):
+                if not name.startswith("_"):
+                    self.assertGreater(len(getattr(kind, name).__doc__ or ""), 10, name)
+
+
 class Scenes(unittest.TestCase):
     def test_those_that_go_with_the_package_are_found(self):
         self.assertTrue((wetcloth.scene_folder() / "wick_strip.json").is_file())
