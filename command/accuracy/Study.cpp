@@ -4,6 +4,7 @@
 #include "command/accuracy/Advice.h"
 #include "command/accuracy/ConvergenceOrder.h"
 #include "command/accuracy/ParetoFront.h"
+#include "command/timing/ProcessorTime.h"
 #include "command/timing/Quantile.h"
 
 #include <algorithm>
@@ -97,7 +98,8 @@ std::vector<Study> carryOut(const Plan& plan, const Effort& effort, const TellPr
     study.timed = plan.timed;
     study.work = plan.work;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      study.points.push_back(pointOf(plan.settings[i], runs[i].errors.at(measure), command::median(runs[i].seconds)));
+      const double seconds = command::atLeastATick(command::median(runs[i].seconds));
+      study.points.push_back(pointOf(plan.settings[i], runs[i].errors.at(measure), seconds));
     }
     markFront(study.points);
     study.orders = ordersOf(study.points, study.measure.referenceError);

@@ -65,7 +65,7 @@ CostWorld::Seconds CostWorld::step() {
   const double start = processorTime();
   m_world->step();
   const double end = processorTime();
-  return {end - start, m_stopwatch == nullptr ? 0 : m_stopwatch->time() - start};
+  return {atLeastATick(end - start), m_stopwatch == nullptr ? 0 : m_stopwatch->time() - start};
 }
 
 std::vector<std::string> effectNames(const SceneWorld& world) {

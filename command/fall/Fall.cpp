@@ -5,6 +5,7 @@
 #include "command/fall/FallPhysics.h"
 #include "command/fall/FallingCloth.h"
 #include "command/scene/SoundState.h"
+#include "command/timing/ProcessorTime.h"
 
 #include <chrono>
 #include <string>
@@ -94,7 +95,7 @@ FallResult fall(const FallMode& mode, const FallMode::Case& fallCase, double hei
   const auto start = std::chrono::steady_clock::now();
   result.time = timeToFall(cloth, height, 2 * result.closedForm + 1);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  result.fps = result.time / (fallSubstep * fallSubstepsPerFrame) / wall.count();
+  result.fps = result.time / (fallSubstep * fallSubstepsPerFrame) / atLeastATick(wall.count());
   return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/timing/ProcessorTime.h"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 
@@ -16,5 +17,7 @@ double processorTime() {
 #endif
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+double atLeastATick(double seconds) { return std::max(seconds, 1e-9); }
 
 }  // namespace command

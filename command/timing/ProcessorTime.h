@@ -7,4 +7,8 @@ namespace command {
 /// core for a while needs does not count.
 double processorTime();
 
+/// A measured time that may be divided by [s]: a nanosecond where the clock did not tick, as some do so rarely that
+/// they show no time for work that took some.
+double atLeastATick(double seconds);
+
 }  // namespace command
