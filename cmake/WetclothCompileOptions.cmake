@@ -9,6 +9,19 @@ function(wetcloth_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:${level}>)
 endfunction()
 
+# bullet_wetcloth/IeeeArithmetic.h refuses what a compiler lets see of these; Clang lets see only some.
+function(wetcloth_require_ieee_arithmetic)
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" config)
+  set(flags "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${config}}")
+  set(parts fast-math finite-math-only unsafe-math-optimizations associative-math reciprocal-math no-signed-zeros
+            fp-model=fast)
+  list(JOIN parts "|" parts)
+  if(flags MATCHES "(^| )(-f(${parts})|-Ofast|/fp:fast)( |$)")
+    message(FATAL_ERROR "${CMAKE_MATCH_2} in CMAKE_CXX_FLAGS: bullet_wetcloth rests on IEEE arithmetic; compile it without "
+                        "-ffast-math and all of its parts")
+  endif()
+endfunction()
+
 # wetcloth_compile_options(<target>): what every target of this tree is compiled with, and none of its users.
 #
 # -Wconversion is left out on purpose: water is double and btScalar is float or double, so code for both
