@@ -46,6 +46,7 @@ CommandLine::CommandLine(const std::vector<AddCommand>& commands, const std::str
   m_app->footer(examples);
   m_app->set_version_flag("--version", "wetcloth " WETCLOTH_VERSION_STRING);
   m_app->require_subcommand(1);
+  m_app->allow_windows_style_options(false);  // a path may begin with a slash there, too
   for (const AddCommand add : commands) m_commands.push_back(add(*m_app));
 }
 
