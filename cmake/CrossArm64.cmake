@@ -1,13 +1,8 @@
 # SPDX-License-Identifier: Zlib
-# A toolchain: Linux on 64-bit ARM, run by QEMU. WETCLOTH_CROSS_PREFIX has Bullet and what else is needed (cross.sh).
+# A toolchain: Linux on 64-bit ARM, run by QEMU.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
-set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static -L /usr/aarch64-linux-gnu)
-set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES WETCLOTH_CROSS_PREFIX)
-set(CMAKE_FIND_ROOT_PATH "${WETCLOTH_CROSS_PREFIX}")
-set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
-set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(CMAKE_CROSSCOMPILING_EMULATOR /usr/bin/qemu-aarch64-static -L /usr/aarch64-linux-gnu)
+include("${CMAKE_CURRENT_LIST_DIR}/CrossPrefix.cmake")

@@ -16,7 +16,7 @@ endif()
 
 # suites_<name of a file>: a list. A suite is indented less than its cases, and its first case names its file.
 set(names "")
-file(STRINGS "${listing}" lines REGEX "^(      \"name\"|          \"file\")")
+file(STRINGS "${directory}/${listing}" lines REGEX "^(      \"name\"|          \"file\")")
 string(REPLACE "\\/" "/" lines "${lines}")
 set(suite "")
 foreach(line IN LISTS lines)
@@ -39,11 +39,16 @@ endforeach()
 
 # What GoogleTest says last where every test was skipped; where one failed as well, more follows. It only says so without
 # --gtest_brief.
-set(all_skipped "\\[  PASSED  \\] 0 tests\\.\n(\\[  SKIPPED \\][^\n]*\n)+$")
+set(all_skipped "\\[  PASSED  \\] 0 tests\\.\r?\n(\\[  SKIPPED \\][^\n]*\n)+$")
+# Seconds; an emulator takes ten times as long.
+set(timeout 600)
+if(emulator)
+  set(timeout 6000)
+endif()
 foreach(name IN LISTS names)
   list(JOIN "suites_${name}" ":" filter)
   add_test("${prefix}${name}" ${emulator} "${program}" "--gtest_filter=${filter}")
-  set_tests_properties("${prefix}${name}" PROPERTIES WORKING_DIRECTORY "${directory}" TIMEOUT 600
+  set_tests_properties("${prefix}${name}" PROPERTIES WORKING_DIRECTORY "${directory}" TIMEOUT ${timeout}
                                                      SKIP_REGULAR_EXPRESSION "${all_skipped}"
                                                      FAIL_REGULAR_EXPRESSION "Running 0 tests")
   list(FIND longest "${name}" place)

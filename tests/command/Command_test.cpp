@@ -46,8 +46,9 @@ int statusOf(const std::string& line) {
 
 #endif
 
+/// As a text: with the ends of lines that C++ has, not the system.
 std::string contents(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream(file);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 

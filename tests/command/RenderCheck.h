@@ -4,6 +4,7 @@
 #include "tests/command/Command.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,16 +33,17 @@ double meanDifference(const Picture& a, const Picture& b);
 /// What is in a folder, hidden files as well, sorted.
 std::vector<std::string> namesIn(const std::string& folder);
 
-/// PATH is another while it lives.
-class ChangedPath {
+/// A variable of the environment is another while it lives.
+class ChangedVariable {
  public:
-  explicit ChangedPath(const std::string& path);
-  ~ChangedPath();
-  ChangedPath(const ChangedPath&) = delete;
-  ChangedPath& operator=(const ChangedPath&) = delete;
+  ChangedVariable(std::string name, const std::string& value);
+  ~ChangedVariable();
+  ChangedVariable(const ChangedVariable&) = delete;
+  ChangedVariable& operator=(const ChangedVariable&) = delete;
 
  private:
-  std::string m_before;
+  std::string m_name;
+  std::optional<std::string> m_before;
 };
 
 }  // namespace wetcloth_test::cli

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #if __has_include(<stb/stb_image.h>)
 #define STB_IMAGE_IMPLEMENTATION
@@ -19,6 +20,21 @@
 #endif
 
 namespace wetcloth_test::cli {
+namespace {
+
+void setVariable(const std::string& name, const std::optional<std::string>& value) {
+#ifdef _WIN32
+  _putenv_s(name.c_str(), value.value_or("").c_str());  // the empty one is taken away
+#else
+  if (value) {
+    setenv(name.c_str(), value->c_str(), 1);
+  } else {
+    unsetenv(name.c_str());
+  }
+#endif
+}
+
+}  // namespace
 
 std::string whyNothingCanBeDrawn() {
 #ifndef STBI_ONLY_PNG
@@ -77,14 +93,18 @@ double meanDifference(const Picture& a, const Picture& b) {
 
 std::vector<std::string> namesIn(const std::string& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().filename());
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
 }
 
-ChangedPath::ChangedPath(const std::string& path) : m_before(std::getenv("PATH")) { setenv("PATH", path.c_str(), 1); }
+ChangedVariable::ChangedVariable(std::string name, const std::string& value) : m_name(std::move(name)) {
+  if (const char* const before = std::getenv(m_name.c_str())) m_before = before;
+  setVariable(m_name, value);
+}
 
-ChangedPath::~ChangedPath() { setenv("PATH", m_before.c_str(), 1); }
+ChangedVariable::~ChangedVariable() { setVariable(m_name, m_before); }
 
 }  // namespace wetcloth_test::cli
 

@@ -28,11 +28,13 @@ std::string readBytes(const std::string& path) {
   return std::string((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
 }
 
+#ifndef _WIN32
 /// Stopped by force after so many seconds, if it has not come to its end.
 Outcome runUntilKilled(double seconds, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"timeout", "--signal=KILL", std::to_string(seconds), WETCLOTH_COMMAND});
   return runProgram(arguments);
 }
+#endif
 
 class Checkpoint : public testing::Test {
  protected:
@@ -61,6 +63,7 @@ TEST_F(Checkpoint, AResumedRunEndsAsOneThatWasNot) {
   }
 }
 
+#ifndef _WIN32
 // However short the time between two kills is at first, it grows until one step from checkpoint to checkpoint fits in.
 TEST_F(Checkpoint, SurvivesBeingKilledAgainAndAgain) {
   Json scene = readJson(sceneFile("towel_under_hose"));
@@ -81,6 +84,7 @@ TEST_F(Checkpoint, SurvivesBeingKilledAgainAndAgain) {
   EXPECT_GT(kills, 2);
   EXPECT_EQ(withoutTimes(Json::parse(outcome.out)), withoutTimes(whole));
 }
+#endif
 
 TEST_F(Checkpoint, OfAnotherRunIsRefused) {
   const std::string scene = m_directory.write("scene.json", smallScene().dump());

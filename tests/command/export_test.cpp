@@ -195,6 +195,7 @@ TEST(Export, AnEmptyFolderIsFilledAndAFileIsReplaced) {
   EXPECT_EQ(bytesOf(directory.path("run.usda")).rfind("#usda", 0), 0u);
 }
 
+#ifndef _WIN32
 TEST(Export, AFullDiskLeavesNothing) {
   const TemporaryDirectory directory;
   const std::string scene = directory.write("scene.json", smallScene().dump());
@@ -210,6 +211,7 @@ TEST(Export, AFullDiskLeavesNothing) {
     EXPECT_EQ(namesIn(directory.path("")), std::vector<std::string>{"scene.json"}) << format;
   }
 }
+#endif
 
 TEST(Export, ARunThatFailsLeavesNothing) {
   Json scene = smallScene();

@@ -129,7 +129,7 @@ TEST_F(RenderFilm, FilmStaysAsItWasWhenFfmpegDies) {
                  "#!/bin/sh\ncase \"$1\" in -version) exit 0;; esac\nhead -c 20000 >/dev/null\n"
                  "echo 'first words' >&2\necho 'last words' >&2\nexit 3\n");
   std::filesystem::permissions(programs.path("ffmpeg"), std::filesystem::perms::owner_all);
-  const ChangedPath changed(programs.path("") + ":/usr/bin:/bin");
+  const ChangedVariable changed("PATH", programs.path("") + ":/usr/bin:/bin");
   m_directory.write("a.mp4", "what was there before");
   const std::string scene = m_directory.write("scene.json", sheetScene().dump());
   const Outcome outcome = runWetcloth({"render", scene, "--out", path("a.mp4"), "--duration", "1"});
@@ -140,7 +140,7 @@ TEST_F(RenderFilm, FilmStaysAsItWasWhenFfmpegDies) {
 }
 
 TEST_F(Render, FilmWithoutFfmpegSaysWhatToInstall) {
-  const ChangedPath changed("/nonexistent");
+  const ChangedVariable changed("PATH", "/nonexistent");
   const std::string scene = m_directory.write("scene.json", sheetScene().dump());
   const Outcome outcome = runWetcloth({"render", scene, "--out", path("a.gif")});
   expectRefusal(outcome, {"--out = \"" + path("a.gif") + "\"", "apt install ffmpeg"});
