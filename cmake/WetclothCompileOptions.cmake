@@ -64,6 +64,8 @@ function(wetcloth_compile_options target)
             -Wno-psabi
             # btVector3() leaves its numbers unset by design, and GCC sees that through Bullet's inlined containers.
             $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
+            # GCC's library calls a function of its own in std::stable_sort() that C++17 does not like.
+            $<$<AND:$<CXX_COMPILER_ID:Clang>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,17>>:-Wno-deprecated-declarations>
             $<$<BOOL:${WETCLOTH_WARNINGS_AS_ERRORS}>:-Werror>)
 
   # Binutils bring two linkers, of which this one takes half of the time.

@@ -84,8 +84,7 @@ class Clipper {
   }
 
   bool holdsNone(const std::array<int, 3>& ear, const std::vector<int>& reflex) const {
-    const auto [a, b, c] = ear;
-    return std::none_of(reflex.begin(), reflex.end(), [&, a = a, b = b, c = c](int corner) {
+    return std::none_of(reflex.begin(), reflex.end(), [&, a = ear[0], b = ear[1], c = ear[2]](int corner) {
       if (corner == a || corner == b || corner == c) return false;
       const Flat& place = point(corner);
       if (place == point(a) || place == point(c)) return false;  // a seam touches itself

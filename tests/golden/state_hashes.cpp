@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -192,8 +193,8 @@ void write(const std::string& path, const Json& found) {
 }
 
 /// How many are not as stored.
-int countDifferent(const Json& stored, const Json& found) {
-  int different = 0;
+std::size_t countDifferent(const Json& stored, const Json& found) {
+  std::size_t different = 0;
   for (const auto& [name, hash] : found.items()) {
     const std::string wanted = stored.value(name, "none");
     if (wanted == hash) continue;
@@ -210,8 +211,9 @@ int check(const std::string& path, const Hashes& hashes, const char* program) {
     std::printf("None are stored for a machine of the kind %s\n", kMachine);
     return hashes.areReproducible ? kSkipped : 1;
   }
-  const int different = countDifferent(stored.at("hashes"), hashes.found);
-  std::printf("%d of %zu runs of %d steps are not as stored\n", different, hashes.found.size(), kSteps);
+  const std::size_t different = countDifferent(stored.at("hashes"), hashes.found);
+  std::printf("%zu of %zu runs of %d steps are as stored\n", hashes.found.size() - different, hashes.found.size(),
+              kSteps);
   if (different == 0) return hashes.areReproducible ? 0 : 1;
   const Json here = toolchain();
   if (stored.at("toolchain") != here) {
