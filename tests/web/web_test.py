@@ -63,6 +63,7 @@ def shown(browser):
 
 
 def test_runs(browser):
+    time.sleep(8)  # until it draws as finely as the machine can
     before, pictures, start = state(browser), browser.evaluate('wetcloth.pictures'), time.monotonic()
     time.sleep(5)
     after = state(browser)
@@ -89,6 +90,8 @@ def test_is_dragged(browser):
     browser.evaluate('for (const axis of ["x", "y", "z"]) { const at = document.getElementById("wind-" + axis);'
                      ' at.value = 0; at.dispatchEvent(new Event("input")); }')
     time.sleep(3)  # it hangs down
+    browser.evaluate('document.getElementById("pause").click()')
+    time.sleep(0.5)
     still = middle(browser)
     hung = shown(browser)
     inside = [(x, y) for y in range(20, STAGE[1] - 20, 4) for x in range(20, STAGE[0] - 20, 4)
@@ -97,6 +100,7 @@ def test_is_dragged(browser):
     place = max(inside)  # near the edge that hangs freely
     goal = (place[0] + 150, place[1] - 150)
     browser.take(place, goal)
+    browser.evaluate('document.getElementById("pause").click()')
     time.sleep(2)
     pulled = middle(browser)
     browser.let_go(goal)

@@ -1,3 +1,10 @@
+/** Whether a processor draws in the place of a graphics card: then there is less time for edges and shadows. */
+function isDrawnByProcessor() {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const names = gl && gl.getExtension('WEBGL_debug_renderer_info');
+  return Boolean(names) && /swiftshader|llvmpipe|basic render/i.test(gl.getParameter(names.UNMASKED_RENDERER_WEBGL));
+}
+
 /** One picture of the scene: ours, or beside it plain Bullet's. */
 class Stage {
   constructor(canvas, page, isPlain) {
@@ -9,7 +16,7 @@ class Stage {
   /** Each scene gets a renderer of its own on the same canvas. */
   begin(scene, colouring) {
     this.run = new LiveRun(scene, this.isPlain);
-    this.renderer = new Renderer(this.canvas, this.run);
+    this.renderer = new Renderer(this.canvas, this.run, this.page.isHurried);
     this.renderer.setColouring(colouring);
     this.fit();
   }
@@ -51,6 +58,7 @@ class Fineness {
 class Page {
   constructor(program, names) {
     Object.assign(this, {program, scene: null, camera: null, isPaused: false, isCompared: false, pictures: 0, fineness: new Fineness()});
+    this.isHurried = isDrawnByProcessor();
     // The camera of now, for listeners that outlive a scene.
     this.lens = {};
     for (const move of ['orbit', 'pan', 'zoom']) this.lens[move] = (...how) => this.camera && this.camera[move](...how);

@@ -1,5 +1,4 @@
 const threads = 128;  // across a cloth; real ones would be finer than pixels
-const shadowTexels = 1024;
 const shadowSoftness = 0.009;  // over the size of what there is to see
 const sunk = 0.035;  // over the same: cloth sinks a little into what it lies on
 /** A film of water makes what is below it darker, by reflecting inside, and smooth. */
@@ -91,11 +90,13 @@ class PictureBlock {
 
 /** Depth as the lamp sees it. */
 class ShadowMap {
-  constructor(gl) {
+  /** @param texels  along an edge */
+  constructor(gl, texels) {
     this.gl = gl;
+    this.texels = texels;
     this.texture = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, this.texture);
-    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.DEPTH_COMPONENT24, shadowTexels, shadowTexels);
+    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.DEPTH_COMPONENT24, texels, texels);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
@@ -157,7 +158,7 @@ class ShadowMap {
     const {gl} = this;
     gl.bindTexture(gl.TEXTURE_2D, null);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.framebuffer);
-    gl.viewport(0, 0, shadowTexels, shadowTexels);
+    gl.viewport(0, 0, this.texels, this.texels);
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1.5, 4);
     gl.clear(gl.DEPTH_BUFFER_BIT);
@@ -199,13 +200,14 @@ function depthStep(clipFromWorld, eye, place, distance) {
 
 /** Draws the run as the pictures of `wetcloth render` show it. */
 class Renderer {
-  constructor(canvas, run) {
-    const gl = canvas.getContext('webgl2', {antialias: true, alpha: false});
+  /** @param isHurried  with rougher edges and shadows */
+  constructor(canvas, run, isHurried = false) {
+    const gl = canvas.getContext('webgl2', {antialias: !isHurried, alpha: false});
     if (!gl) throw new Error('This browser has no WebGL 2');
     Object.assign(this, {gl, canvas, run, scenery: run.scenery, lamp: lampOf(run.scenery)});
     this.makePrograms(run.shaders);
     this.block = new PictureBlock(gl, this.programs.cloth.program);
-    this.shadowMap = new ShadowMap(gl);
+    this.shadowMap = new ShadowMap(gl, isHurried ? 512 : 1024);
     this.colourMap = this.madeColourMap();
     this.square = squareMesh(gl);
     this.nothing = gl.createVertexArray();
@@ -302,7 +304,7 @@ class Renderer {
     const lens = perspective(look.tangentX, look.tangentY, nearest, distance + 80 * ball.radius);
     const clipFromWorld = product(lens, lookFrom(look.eye, look.right, look.above, look.forward));
     this.behind = depthStep(clipFromWorld, look.eye, ball.middle, sunk * this.size);
-    const softness = shadowSoftness * this.size + 2 * this.shadowMap.width / shadowTexels;
+    const softness = shadowSoftness * this.size + 2 * this.shadowMap.width / this.shadowMap.texels;
     this.block.set({
       clipFromWorld,
       shadowFromWorld: this.shadowMap.fromWorld(),
