@@ -247,6 +247,15 @@ WaySlack ClothGuard::slackFor(int steps) const {
           m_isAnyGrid ? -1 : kMostJoltOfEdge * m_edge};
 }
 
+// Where there is no grid that of bodies is for rounding: they go straight.
+WaySlack ClothGuard::slackOfCloth(std::size_t c) const {
+  WaySlack slack = slackFor(m_ahead);
+  if (m_isAnyGrid || !m_cloths[c].mesh->isOfBodies) return slack;
+  slack.least = m_slackFactor * kRoundingsOfSlack * m_rounding;
+  slack.ofWay = 0;
+  return slack;
+}
+
 // All nodes, from now on. What moves restlessly is not expected far ahead.
 void ClothGuard::look() {
   ++m_totals.looks;
@@ -274,7 +283,7 @@ double ClothGuard::expectAll() {
       kept.way[axis].resize(nodes.count);
     }
     runOnBestLanes(ExpectWays{nodes.position, kept.last, kept.before, kept.from, kept.way, kept.slack.data(),
-                              nodes.count, static_cast<btScalar>(m_ahead), slackFor(m_ahead), restless});
+                              nodes.count, static_cast<btScalar>(m_ahead), slackOfCloth(c), restless});
     all += static_cast<double>(nodes.count);
   }
   return restless / all;

@@ -88,6 +88,7 @@ class ClothGuard {
   void showExpected(std::size_t cloth);
   void showExpected(std::size_t cloth, int node);
   WaySlack slackFor(int steps) const;
+  WaySlack slackOfCloth(std::size_t cloth) const;
   void addPlanes();
   void enforce();
   void takeWetness();
