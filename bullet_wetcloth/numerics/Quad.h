@@ -65,8 +65,6 @@ WETCLOTH_INLINE Quad splat(const Quad& quad) {
 /// The numbers of the second, third and first axis; the fourth stays.
 WETCLOTH_INLINE Quad turnAxes(const Quad& quad) { return WETCLOTH_SHUFFLE(quad, quad, 1, 2, 0, 3); }
 
-#undef WETCLOTH_SHUFFLE
-
 /// The lesser of each two; the second one where either is not a number.
 template <class Lanes>
 WETCLOTH_INLINE Lanes lesser(const Lanes& a, const Lanes& b) {
@@ -95,6 +93,25 @@ WETCLOTH_INLINE unsigned bitsOf(const Mask& mask) {
   return bits;
 #endif
 }
+
+/// The same of as many numbers as there are lanes.
+template <class Lanes, class Mask>
+WETCLOTH_INLINE unsigned bitsOfLanes(const Mask& mask) {
+  if constexpr (kLaneCount<Lanes> == 4) {
+    return bitsOf(mask);
+  } else if constexpr (kLaneCount<Lanes> == 8) {
+    return bitsOf(WETCLOTH_SHUFFLE(mask, mask, 0, 1, 2, 3)) | bitsOf(WETCLOTH_SHUFFLE(mask, mask, 4, 5, 6, 7)) << 4;
+  } else {
+    unsigned bits = 0;
+    for (unsigned k = 0; k < kLaneCount<Lanes>; ++k) bits |= mask[k] ? 1u << k : 0u;
+    return bits;
+  }
+}
+
+#undef WETCLOTH_SHUFFLE
+
+/// The number of the lowest bit that is set; one is.
+WETCLOTH_INLINE unsigned lowestBit(unsigned bits) { return static_cast<unsigned>(__builtin_ctz(bits)); }
 
 #else
 

@@ -20,13 +20,15 @@ constexpr double kThicknessOfEdge = 0.5;             // of the mean edge, at mos
 // How far nodes may leave the way that is expected of them, on each axis: shares of the mean edge, of the way ahead,
 // and of what their present acceleration does in one small step and in those ahead.
 constexpr btScalar kLeastSlackOfEdge = btScalar(0.01);
+constexpr btScalar kLeastSlackByNodes = btScalar(0.04);  // where there is no grid
 constexpr btScalar kMostSlackOfEdge = btScalar(0.1);
 constexpr btScalar kSlackOfWay = btScalar(0.02);
 constexpr btScalar kSlackOfAcceleration = 1;
-constexpr btScalar kSlackOfBend = btScalar(0.2);     // a parabola is 1/8 of it from its chord
-constexpr btScalar kMostBendOfEdge = btScalar(0.1);  // by which an end is expected off the present way
-constexpr btScalar kMostSlackFactor = 64;            // when what was held apart left what had been expected of it
-constexpr int kFewAhead = 2;                         // small steps
+constexpr btScalar kSlackOfBend = btScalar(0.2);       // a parabola is 1/8 of it from its chord
+constexpr btScalar kMostBendOfEdge = btScalar(0.1);    // by which an end is expected off the present way
+constexpr btScalar kMostJoltOfEdge = btScalar(0.005);  // that is taken to go on, where there is no grid
+constexpr btScalar kMostSlackFactor = 64;              // when what was held apart left what had been expected of it
+constexpr int kFewAhead = 2;                           // small steps
 // Share of nodes that may need more than the most slack: where there is a grid, and where each is looked at again by
 // itself.
 constexpr double kRestless = 0.001;
@@ -72,7 +74,8 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
     for (std::size_t axis = 0; axis < 3; ++axis) {
       m_kept[c].last[axis].assign(nodes.position[axis], nodes.position[axis] + nodes.count);
       m_kept[c].before[axis].resize(nodes.count);
-      runOnBestLanes(PlacesBefore{nodes.position[axis], nodes.velocity[axis], cloths[c].h,
+      const btScalar* const settled = cloths[c].settled[axis];
+      runOnBestLanes(PlacesBefore{nodes.position[axis], settled ? settled : nodes.velocity[axis], cloths[c].h,
                                   m_kept[c].before[axis].data(), nodes.count});
     }
   }
@@ -85,7 +88,9 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
   }
   m_rounding = farthest * kRoundingAtOne;
   m_contact.rounding = m_rounding;
-  m_leastSlack = std::max(kLeastSlackOfEdge * m_edge, kRoundingsOfSlack * m_rounding);
+  m_isAnyGrid = std::any_of(cloths.begin(), cloths.end(), [](const Cloth& cloth) { return cloth.mesh->isGrid(); });
+  const btScalar least = m_isAnyGrid ? kLeastSlackOfEdge : kLeastSlackByNodes;
+  m_leastSlack = std::max(least * m_edge, kRoundingsOfSlack * m_rounding);
   m_mostSlack = std::max(kMostSlackOfEdge * m_edge, m_leastSlack);
   takeWetness();
   m_pairs.clear();
@@ -234,8 +239,21 @@ bool ClothGuard::isWhereExpected() const {
 // From the present small step on, for so many.
 WaySlack ClothGuard::slackFor(int steps) const {
   const btScalar count = static_cast<btScalar>(steps);
-  return {m_slackFactor * m_leastSlack, m_slackFactor * m_mostSlack, kSlackOfWay * count,
-          kSlackOfAcceleration + kSlackOfBend * count * count, kMostBendOfEdge * m_edge / count};
+  return {m_slackFactor * m_leastSlack,
+          m_slackFactor * m_mostSlack,
+          kSlackOfWay * count,
+          kSlackOfAcceleration + (m_isAnyGrid ? kSlackOfBend * count * count : 0),
+          kMostBendOfEdge * m_edge / count,
+          m_isAnyGrid ? -1 : kMostJoltOfEdge * m_edge};
+}
+
+// Where there is no grid that of bodies is for rounding: they go straight.
+WaySlack ClothGuard::slackOfCloth(std::size_t c) const {
+  WaySlack slack = slackFor(m_ahead);
+  if (m_isAnyGrid || !m_cloths[c].mesh->isOfBodies) return slack;
+  slack.least = m_slackFactor * kRoundingsOfSlack * m_rounding;
+  slack.ofWay = 0;
+  return slack;
 }
 
 // All nodes, from now on. What moves restlessly is not expected far ahead.
@@ -243,9 +261,7 @@ void ClothGuard::look() {
   ++m_totals.looks;
   m_age = 1;
   m_ahead = std::min(m_parameters.every, m_smallSteps - m_taken);
-  const bool isAnyGrid =
-      std::any_of(m_cloths.begin(), m_cloths.end(), [](const Cloth& cloth) { return cloth.mesh->isGrid(); });
-  const double restless = isAnyGrid ? kRestless : kRestlessByNodes;
+  const double restless = m_isAnyGrid ? kRestless : kRestlessByNodes;
   while (expectAll() > restless && m_ahead > kFewAhead) m_ahead /= 2;
   for (std::size_t c = 0; c < m_cloths.size(); ++c) showExpected(c);
   m_pairs.clear();
@@ -267,7 +283,7 @@ double ClothGuard::expectAll() {
       kept.way[axis].resize(nodes.count);
     }
     runOnBestLanes(ExpectWays{nodes.position, kept.last, kept.before, kept.from, kept.way, kept.slack.data(),
-                              nodes.count, static_cast<btScalar>(m_ahead), slackFor(m_ahead), restless});
+                              nodes.count, static_cast<btScalar>(m_ahead), slackOfCloth(c), restless});
     all += static_cast<double>(nodes.count);
   }
   return restless / all;
@@ -318,7 +334,7 @@ void ClothGuard::expectOnPresentWay(std::size_t c, int node) {
     const btScalar now = m_cloths[c].nodes.position[axis][slot] - last;
     const btScalar earlier = last - kept.before[axis][slot];
     const btScalar acceleration = now - earlier;
-    kept.way[axis][slot] = now + slackOf.bent(acceleration * (static_cast<btScalar>(steps - 1) / 2), earlier);
+    kept.way[axis][slot] = slackOf.ahead(now, earlier, static_cast<btScalar>(steps));
     kept.from[axis][slot] = last - kept.way[axis][slot] * static_cast<btScalar>(m_age - 1);
     slack = std::max(slack, slackOf.of(now, acceleration));
   }
@@ -398,6 +414,7 @@ void ClothGuard::forEachNode(const Action& action) const {
 }
 
 void ClothGuard::gather() {
+  if (m_areAllHeld) return gatherAll();
   forEachHeld([this](std::size_t c, int node) { gather(c, node); });
 }
 
@@ -408,15 +425,44 @@ std::size_t ClothGuard::clothOf(int node) const {
 
 // The nodes of these pairs, if that is less.
 void ClothGuard::gather(const GuardCandidates& pairs) {
-  if (4 * pairs.size() > m_nodes.to.size()) {
-    return forEachNode([this](std::size_t c, int node) { gather(c, node); });
-  }
+  if (4 * pairs.size() > m_nodes.to.size()) return gatherAll();
   for (const std::vector<GuardPair>* const some : {&pairs.vertexFace, &pairs.edgeEdge}) {
     for (const GuardPair& pair : *some) {
       for (const int node : pair.node) {
         const std::size_t c = clothOf(node);
         gather(c, node - static_cast<int>(m_first[c]));
       }
+    }
+  }
+}
+
+void ClothGuard::gatherAll() {
+  for (std::size_t c = 0; c < m_cloths.size(); ++c) gatherAll(c);
+}
+
+void ClothGuard::gatherAll(std::size_t c) {
+  const Cloth& cloth = m_cloths[c];
+  if (!cloth.nodeOfSlot) {
+    for (int node = 0; node < cloth.nodeCount; ++node) gather(c, node);
+    return;
+  }
+  const btVector3 away = cloth.origin - m_cloths.front().origin;
+  for (std::size_t slot = 0; slot < cloth.nodes.count; slot += 4) {
+    Quad before[4] = {everywhere<Quad>(0), everywhere<Quad>(0), everywhere<Quad>(0), everywhere<Quad>(0)};
+    Quad now[4] = {before[0], before[0], before[0], before[0]};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      before[axis] = load<Quad>(&m_kept[c].last[axis][slot]) + everywhere<Quad>(away[static_cast<int>(axis)]);
+      now[axis] = load<Quad>(&cloth.nodes.position[axis][slot]) + everywhere<Quad>(away[static_cast<int>(axis)]);
+    }
+    Quad from[4], to[4];
+    transpose(before, from);
+    transpose(now, to);
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (cloth.nodeOfSlot[slot + k] < 0) continue;
+      const std::size_t i = m_first[c] + toSize(cloth.nodeOfSlot[slot + k]);
+      store(m_nodes.from[i].at, from[k]);
+      store(m_nodes.to[i].at, to[k]);
+      m_nodes.inverseMass[i] = cloth.isStill ? 0 : cloth.nodes.inverseMass[slot + k];
     }
   }
 }

@@ -42,6 +42,9 @@ class ClothGuard {
     const LayerWetness* wetness = nullptr;
     const int* nodeOfSlot = nullptr;        ///< of each slot, -1: none; or null: it is not known
     CoincidentNodes* coincident = nullptr;  ///< which count as one; or null: there are none
+    /// By slot: with which the step before ended, without what has pushed the cloth since then [m/s]; or null:
+    /// velocity.
+    const btScalar* settled[3] = {nullptr, nullptr, nullptr};
   };
 
   /// Before the first small step of a step: nodes stand where they were at its end, and pins where they come from.
@@ -85,6 +88,7 @@ class ClothGuard {
   void showExpected(std::size_t cloth);
   void showExpected(std::size_t cloth, int node);
   WaySlack slackFor(int steps) const;
+  WaySlack slackOfCloth(std::size_t cloth) const;
   void addPlanes();
   void enforce();
   void takeWetness();
@@ -100,6 +104,8 @@ class ClothGuard {
   void findHeld();
   void gatherToMove();
   void gather();
+  void gatherAll();
+  void gatherAll(std::size_t cloth);
   void gather(const GuardCandidates& pairs);
   void gather(std::size_t cloth, int node);
   void scatter();
@@ -139,6 +145,7 @@ class ClothGuard {
   int m_age = 0;                // small steps since the last look at all nodes, that one included
   int m_ahead = 0;              // for how many it was
   btScalar m_slackFactor = 1;
+  bool m_isAnyGrid = false;
   btScalar m_edge = 0;        // the mean edge [m]
   btScalar m_rounding = 0;    // of a place [m]
   btScalar m_leastSlack = 0;  // of a node [m]

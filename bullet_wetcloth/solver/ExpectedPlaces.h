@@ -104,7 +104,6 @@ struct ExpectWays {
 
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
-    const Lanes later = everywhere<Lanes>((steps - 1) / 2);
     const Lanes most = everywhere<Lanes>(slackOf.most);
     Lanes atLimit = everywhere<Lanes>(0);
     for (std::size_t i = 0; i < count; i += kLaneCount<Lanes>) {
@@ -115,7 +114,7 @@ struct ExpectWays {
         const Lanes earlier = at - load<Lanes>(before[axis].data() + i);
         const Lanes acceleration = now - earlier;
         store(from[axis].data() + i, at);
-        store(way[axis].data() + i, now + slackOf.bent(acceleration * later, earlier));
+        store(way[axis].data() + i, slackOf.ahead(now, earlier, steps));
         const Lanes wanted = slackOf.of(now, acceleration);
         largest = choose(wanted > largest, wanted, largest);
       }

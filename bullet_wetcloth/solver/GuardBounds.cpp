@@ -74,9 +74,7 @@ GuardBox boxAround(const btScalar (&low)[kNumbersOfWay], const btScalar (&high)[
 int squaresOf(const GuardMesh& mesh, int level) {
   const GuardGrid grid = {mesh};
   if (mesh.isGrid()) return grid.rows(level) * grid.columns(level);
-  return level == 0                   ? static_cast<int>(mesh.tiles.size())
-         : level == GuardGrid::kCells ? static_cast<int>(mesh.cells.size())
-                                      : 0;
+  return level == 0 ? static_cast<int>(mesh.tiles.size()) : 0;
 }
 
 // What is there already is kept.
@@ -89,6 +87,8 @@ void growTo(std::size_t size, Elements& elements) {
 
 void GuardBounds::clear() {
   m_cloths.clear();
+  m_parts.clear();
+  m_isAnyMesh = false;
   m_end = {};
 }
 
@@ -98,6 +98,8 @@ void GuardBounds::add(const GuardMesh& mesh, std::size_t firstNode) {
   cloth.firstNode = static_cast<int>(firstNode);
   cloth.nodeCount = static_cast<int>(mesh.firstTileOfNode.size());
   m_cloths.push_back(cloth);
+  m_parts.add(mesh, cloth.firstNode);
+  m_isAnyMesh = m_isAnyMesh || !mesh.isGrid();
   for (int k = 0; k < GuardGrid::kLevels; ++k) {
     Level& level = m_levels[k];
     m_end.firstSquare[k] += toSize(squaresOf(mesh, k));
@@ -120,6 +122,7 @@ void GuardBounds::add(const GuardMesh& mesh, std::size_t firstNode) {
 void GuardBounds::boundTiles(const GuardNodes& nodes, btScalar near) {
   m_nodes = &nodes;
   m_near = near;
+  if (m_isAnyMesh) m_parts.begin(nodes, near);
   for (Level& level : m_levels) {
     std::fill(level.isBound.begin(), level.isBound.end(), static_cast<unsigned char>(0));
     std::fill(level.four.begin(), level.four.end(), Flatness::unknown);
@@ -139,7 +142,6 @@ void GuardBounds::boundTile(const Cloth& cloth, int tile) {
   findTile(cloth, tile);
   for (int cell = mesh.tiles[toSize(tile)].cell; cell < mesh.tiles[toSize(tile)].endCell; ++cell) {
     m_partsAreBound[cloth.firstCell + toSize(cell)] = 0;
-    if (!mesh.isGrid()) m_levels[GuardGrid::kCells].isBound[cloth.firstSquare[GuardGrid::kCells] + toSize(cell)] = 0;
   }
   if (mesh.isGrid()) return forgetSquaresOf(cloth, tile);
   m_normalsAreBound[cloth.firstSquare[0] + toSize(tile)] = 0;
@@ -220,13 +222,9 @@ void GuardBounds::findTile(const Cloth& cloth, int tile) {
   m_levels[0].isBound[k] = 1;
   if (mesh.isGrid()) {
     square = squareOf(cloth, GuardGrid{mesh}.nodesOf(0, tile / mesh.tileColumns, tile % mesh.tileColumns));
-    return;
+    return m_parts.forget(k);
   }
-  const GuardMesh::Tile& parts = mesh.tiles[toSize(tile)];
-  square.box = GuardBox();
-  for (int face = mesh.cells[toSize(parts.cell)].face; face < mesh.cells[toSize(parts.endCell)].face; ++face) {
-    square.box.include(boxOf(cloth, mesh.faces[toSize(face)].node, 3));
-  }
+  square.box = m_parts.bound(k);
 }
 
 const GuardBounds::Square& GuardBounds::squareAt(const Cloth& cloth, int level, int row, int column) {
@@ -238,18 +236,6 @@ const GuardBounds::Square& GuardBounds::squareAt(const Cloth& cloth, int level, 
     squares.squares[k] = squareOf(cloth, grid.nodesOf(level, row, column));
   }
   return squares.squares[k];
-}
-
-const GuardBox& GuardBounds::cell(const Cloth& cloth, int cell) {
-  const GuardMesh::Cell& parts = cloth.mesh->cells[toSize(cell)];
-  if (cloth.mesh->isGrid()) return square(cloth, GuardGrid::kCells, parts.row, parts.column);
-  Level& cells = m_levels[GuardGrid::kCells];
-  const std::size_t k = cloth.firstSquare[GuardGrid::kCells] + toSize(cell);
-  if (!cells.isBound[k]) {
-    cells.isBound[k] = 1;
-    cells.squares[k].box = boxOf(cloth, cloth.mesh->faces[toSize(parts.face)].node, 3);
-  }
-  return cells.squares[k].box;
 }
 
 void GuardBounds::boundParts(const Cloth& cloth, int cell) {
@@ -303,30 +289,28 @@ bool GuardBounds::areFlatNow(const Cloth& cloth, int level, const GridRectangle&
   return bounds.areOfASheetThatCannotMeetItself();
 }
 
+// What of two tiles is left out where it is flat: the first patch that has both, which has what is around a tile where
+// there is such a one. Where that is not flat, others of both are tried in vain most of the time.
+std::size_t GuardBounds::patchOf(const Cloth& cloth, const GuardMesh::TileInPatch& both) {
+  return toSize(cloth.mesh->patchesOfTiles[toSize(both.firstPatch)]);
+}
+
 bool GuardBounds::areInAFlatPatch(const Cloth& cloth, int tileA, int tileB) {
   const GuardMesh& mesh = *cloth.mesh;
   const GuardMesh::TileInPatch* const both = mesh.inPatches(tileA, tileB);
   if (!both) return false;
-  for (int k = both->firstPatch; k < both->endPatch; ++k) {
-    const std::size_t patch = toSize(mesh.patchesOfTiles[toSize(k)]);
-    Flatness& known = m_patches[cloth.firstPatch + patch];
-    if (known == Flatness::unknown) {
-      known = isFlat(cloth, mesh.patches[patch]) ? Flatness::flat : Flatness::perhapsNot;
-    }
-    if (known == Flatness::flat) return true;
+  const std::size_t patch = patchOf(cloth, *both);
+  Flatness& known = m_patches[cloth.firstPatch + patch];
+  if (known == Flatness::unknown) {
+    known = isFlat(cloth, mesh.patches[patch]) ? Flatness::flat : Flatness::perhapsNot;
   }
-  return false;
+  return known == Flatness::flat;
 }
 
 bool GuardBounds::wereInAFlatPatch(const Cloth& cloth, int tileA, int tileB) const {
   if (m_lost.empty()) return false;
-  const GuardMesh& mesh = *cloth.mesh;
-  const GuardMesh::TileInPatch* const both = mesh.inPatches(tileA, tileB);
-  if (!both) return false;
-  for (int k = both->firstPatch; k < both->endPatch; ++k) {
-    if (m_patches[cloth.firstPatch + toSize(mesh.patchesOfTiles[toSize(k)])] == Flatness::lost) return true;
-  }
-  return false;
+  const GuardMesh::TileInPatch* const both = cloth.mesh->inPatches(tileA, tileB);
+  return both && m_patches[cloth.firstPatch + patchOf(cloth, *both)] == Flatness::lost;
 }
 
 bool GuardBounds::isFlat(const Cloth& cloth, const SheetPatch& patch) {

@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/solver/GuardGrid.h"
 #include "bullet_wetcloth/solver/GuardMesh.h"
 #include "bullet_wetcloth/solver/GuardNodes.h"
+#include "bullet_wetcloth/solver/PartBoxes.h"
 #include "bullet_wetcloth/solver/SheetBounds.h"
 
 #include <cstddef>
@@ -22,7 +23,7 @@ class GuardBounds {
     const GuardMesh* mesh;
     int firstNode;
     int nodeCount;
-    std::size_t firstSquare[GuardGrid::kLevels];  ///< of another mesh: tile; -, -; cell
+    std::size_t firstSquare[GuardGrid::kLevels];  ///< of another mesh: tile; -, -, -
     std::size_t firstCell;
     std::size_t firstPatch;
     std::size_t firstEdge;
@@ -37,7 +38,10 @@ class GuardBounds {
 
   /// All nodes are expected anew; they live as long as bounds are asked for. Parts are near at this distance [m].
   void boundTiles(const GuardNodes& nodes, btScalar near);
-  /// Nodes of this tile are expected elsewhere. After all such tiles: renewPatches().
+  /// These nodes are expected elsewhere. After that boundTile() for each of their tiles, then renewPatches().
+  void renewNodes(const std::vector<int>& changed) {
+    if (m_isAnyMesh) m_parts.renew(changed);
+  }
   void boundTile(const Cloth& cloth, int tile);
   /// Of a mesh that is no grid: what is known of patches holds again, but for those that are flat no more.
   void renewPatches();
@@ -48,7 +52,12 @@ class GuardBounds {
   const GuardBox& square(const Cloth& cloth, int level, int row, int column) {
     return squareAt(cloth, level, row, column).box;
   }
-  const GuardBox& cell(const Cloth& cloth, int cell);
+  const GuardBox& cell(const Cloth& cloth, int row, int column) {
+    return square(cloth, GuardGrid::kCells, row, column);
+  }
+  /// Of all tiles, where any cloth is no grid.
+  PartBoxes& parts() { return m_parts; }
+  const PartBoxes& parts() const { return m_parts; }
   /// Before a box of an edge or a face of this cell is asked for.
   void boundParts(const Cloth& cloth, int cell);
   const GuardBox& edge(const Cloth& cloth, int edge) const { return m_edges[cloth.firstEdge + toSize(edge)]; }
@@ -89,6 +98,7 @@ class GuardBounds {
     std::size_t cloth;
     int patch;
   };
+  static std::size_t patchOf(const Cloth& cloth, const GuardMesh::TileInPatch& both);
   bool isFlat(const Cloth& cloth, const SheetPatch& patch);
   Flatness& flatnessOf(const PatchOf& of) { return m_patches[m_cloths[of.cloth].firstPatch + toSize(of.patch)]; }
   void findTile(const Cloth& cloth, int tile);
@@ -99,6 +109,8 @@ class GuardBounds {
   std::vector<Cloth> m_cloths;
   Cloth m_end = {};  // of which nothing is there but where it would begin
   Level m_levels[GuardGrid::kLevels];
+  PartBoxes m_parts;
+  bool m_isAnyMesh = false;         // that is no grid
   std::vector<GuardBox> m_normals;  // of tiles
   std::vector<unsigned char> m_normalsAreBound;
   std::vector<Flatness> m_patches;

@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/mesh/FaceWinding.h"
 #include "bullet_wetcloth/mesh/RestMesh.h"
+#include "bullet_wetcloth/solver/PartBoxes.h"
 
 #include <algorithm>
 #include <array>
@@ -165,10 +166,38 @@ void fillGrid(const std::vector<std::vector<int>>& facesOfCorner, CellWriter& wr
   }
 }
 
-// Halves the faces at the median of their centres along the longest side, until few are left.
+// Halves the faces along the longest side of where their centres are: the first half has a multiple of so many.
+int* halve(int* first, int* last, std::ptrdiff_t multiple, const CellWriter& writer) {
+  btVector3 least = writer.centreOf(*first);
+  btVector3 largest = least;
+  for (const int* face = first; face != last; ++face) {
+    least.setMin(writer.centreOf(*face));
+    largest.setMax(writer.centreOf(*face));
+  }
+  const int axis = (largest - least).maxAxis();
+  int* const middle = first + std::max(((last - first) / 2 + multiple / 2) / multiple, std::ptrdiff_t(1)) * multiple;
+  std::nth_element(first, middle, last, [&](int a, int b) {
+    const btScalar atA = writer.centreOf(a)[axis];
+    const btScalar atB = writer.centreOf(b)[axis];
+    return atA != atB ? atA < atB : a < b;
+  });
+  return middle;
+}
+
+// So that those whose boxes are tested at once are near each other.
+void sortFaces(int* first, int* last, const CellWriter& writer) {
+  constexpr auto kAtOnce = static_cast<std::ptrdiff_t>(PartBoxes::kLanes);
+  if (last - first <= kAtOnce) return;
+  int* const middle = halve(first, last, kAtOnce, writer);
+  sortFaces(first, middle, writer);
+  sortFaces(middle, last, writer);
+}
+
+// Halves the faces until few are left.
 void fillTiles(int* first, int* last, CellWriter& writer, GuardMesh& mesh) {
   if (last - first <= kMostFacesInTile) {
     GuardMesh::Tile tile = {static_cast<int>(mesh.cells.size()), 0, false};
+    sortFaces(first, last, writer);
     for (const int* face = first; face != last; ++face) {
       writer.beginCell(0, 0);
       writer.addFaceWithParts(*face);
@@ -177,19 +206,7 @@ void fillTiles(int* first, int* last, CellWriter& writer, GuardMesh& mesh) {
     mesh.tiles.push_back(tile);
     return;
   }
-  btVector3 least = writer.centreOf(*first);
-  btVector3 largest = least;
-  for (const int* face = first; face != last; ++face) {
-    least.setMin(writer.centreOf(*face));
-    largest.setMax(writer.centreOf(*face));
-  }
-  const int axis = (largest - least).maxAxis();
-  int* const middle = first + (last - first) / 2;
-  std::nth_element(first, middle, last, [&](int a, int b) {
-    const btScalar atA = writer.centreOf(a)[axis];
-    const btScalar atB = writer.centreOf(b)[axis];
-    return atA != atB ? atA < atB : a < b;
-  });
+  int* const middle = halve(first, last, kMostFacesInTile, writer);
   fillTiles(first, middle, writer, mesh);
   fillTiles(middle, last, writer, mesh);
 }

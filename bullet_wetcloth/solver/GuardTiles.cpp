@@ -40,7 +40,6 @@ void GuardTiles::findPairs(const GuardNodes& nodes, btScalar near, const Scope& 
   m_pairs = &pairs;
   m_isFlat.assign(m_isImposed.size(), false);
   m_isNew.assign(m_tiles.size(), true);
-  m_isNewNode.assign(nodes.expected.size(), 0);
   m_newCells.resize(m_tiles.size());
   m_areAllNew = true;
   findPairs();
@@ -49,11 +48,8 @@ void GuardTiles::findPairs(const GuardNodes& nodes, btScalar near, const Scope& 
 void GuardTiles::findPairsAgain(const std::vector<int>& changed, GuardCandidates& pairs) {
   m_pairs = &pairs;
   m_isNew.assign(m_tiles.size(), false);
-  std::fill(m_isNewNode.begin(), m_isNewNode.end(), static_cast<unsigned char>(0));
-  for (const int node : changed) {
-    m_isNewNode[toSize(node)] = 1;
-    markTilesOf(node);
-  }
+  m_bounds.renewNodes(changed);
+  for (const int node : changed) markTilesOf(node);
   for (std::size_t tile = 0; tile < m_tiles.size(); ++tile) {
     if (!m_isNew[tile]) continue;
     m_bounds.boundTile(m_bounds.cloths()[m_tiles[tile].cloth], m_tiles[tile].index);
@@ -65,25 +61,20 @@ void GuardTiles::findPairsAgain(const std::vector<int>& changed, GuardCandidates
   findPairs();
 }
 
-bool GuardTiles::hasNew(const Cloth& cloth, const GuardMesh::Face& face) const {
-  return std::any_of(std::begin(face.node), std::end(face.node),
-                     [&](int node) { return m_isNewNode[toSize(cloth.firstNode + node)] != 0; });
-}
-
 bool GuardTiles::hasNew(const GuardPair& pair) const {
   return std::any_of(std::begin(pair.node), std::end(pair.node),
-                     [&](int node) { return m_isNewNode[toSize(node)] != 0; });
+                     [&](int node) { return m_bounds.parts().isNew(node); });
 }
 
 void GuardTiles::boundNewCells(std::size_t tile) {
-  const Cloth& cloth = m_bounds.cloths()[m_tiles[tile].cloth];
-  const GuardMesh::Tile& parts = cloth.mesh->tiles[toSize(m_tiles[tile].index)];
   m_newCells[tile] = boxOf(tile);
   if (!m_goesByNodes[m_tiles[tile].cloth]) return;
   m_newCells[tile] = GuardBox();
-  for (int cell = parts.cell; cell < parts.endCell; ++cell) {
-    const GuardMesh::Face& face = cloth.mesh->faces[toSize(cloth.mesh->cells[toSize(cell)].face)];
-    if (hasNew(cloth, face)) m_newCells[tile].include(m_bounds.cell(cloth, cell));
+  const PartBoxes::Blocks faces = m_bounds.parts().blocks(tile, PartBoxes::kFaces);
+  for (const PartBoxes::Block* block = faces.begin; block != faces.end; ++block) {
+    for (unsigned isNew = block->isNew, k = 0; isNew != 0; isNew >>= 1, ++k) {
+      if ((isNew & 1) != 0) m_newCells[tile].include(boxOfCell(tile, block->first + static_cast<int>(k)));
+    }
   }
 }
 
@@ -240,65 +231,142 @@ void GuardTiles::lookAtTiles(std::size_t a, std::size_t b) {
     return lookAtSquares(clothA, {0, tileA / meshA.tileColumns, tileA % meshA.tileColumns}, clothB,
                          {0, tileB / meshB.tileColumns, tileB % meshB.tileColumns});
   }
-  findCellsIn(a, m_bounds.tile(clothB, tileB), m_cells[0]);
-  if (m_areOnlyNew && !m_isNew[b]) keepNew(m_cells[0]);
-  if (meshB.isOfBodies && meshB.shellOfTile[toSize(tileB)] >= 0) {
-    leaveOutBeyond(clothA, clothB, meshB.shellOfTile[toSize(tileB)], m_cells[0]);
-  }
-  if (m_cells[0].empty()) return;
-  GuardBox inB;
-  for (const NearCell& near : m_cells[0]) inB.include(*near.box);
-  findCellsIn(b, inB, m_cells[1]);
-  if (m_areOnlyNew && !m_isNew[a]) keepNew(m_cells[1]);
-  for (const NearCell& one : m_cells[0]) {
-    for (const NearCell& other : m_cells[1]) {
-      if (m_areOnlyNew && !one.isNew && !other.isNew) continue;
-      if (!one.box->overlaps(*other.box) || (a == b && other.cell < one.cell)) continue;
-      lookAtCells(clothA, one.cell, clothB, other.cell);
-    }
+  m_bounds.parts().need(a);
+  m_bounds.parts().need(b);
+  chooseParts(a, b);
+  meetVerticesAndFaces(a, 0, b, 1);
+  if (a != b) meetVerticesAndFaces(b, 1, a, 0);
+  meetEdges(a, b);
+}
+
+// Of two tiles the parts that may meet, as far as the boxes around all of them tell, and planes beside bodies.
+void GuardTiles::chooseParts(std::size_t a, std::size_t b) {
+  const GuardMesh& meshB = *m_bounds.cloths()[m_tiles[b].cloth].mesh;
+  if (meshB.isOfBodies && meshB.shellOfTile[toSize(m_tiles[b].index)] >= 0) return choosePartsNotBeyond(a, b);
+  for (int kind = 0; kind < PartBoxes::kKinds; ++kind) {
+    const auto of = static_cast<PartBoxes::Kind>(kind);
+    m_bounds.parts().find(a, of, boxOf(b), m_chosen[0][kind]);
+    m_bounds.parts().find(b, of, boxOf(a), m_chosen[1][kind]);
   }
 }
 
-void GuardTiles::keepNew(std::vector<NearCell>& cells) {
-  cells.erase(std::remove_if(cells.begin(), cells.end(), [](const NearCell& near) { return !near.isNew; }),
-              cells.end());
+void GuardTiles::choosePartsNotBeyond(std::size_t tile, std::size_t bodies) {
+  for (ChosenParts(&of)[PartBoxes::kKinds] : m_chosen) {
+    for (ChosenParts& parts : of) parts.clear();
+  }
+  findCellsIn(tile, boxOf(bodies), m_areOnlyNew && !m_isNew[bodies]);
+  m_cells.erase(std::remove_if(m_cells.begin(), m_cells.end(), [&](int cell) { return isBeyond(tile, cell, bodies); }),
+                m_cells.end());
+  if (m_cells.empty()) return;
+  GuardBox around;
+  for (const int cell : m_cells) around.include(boxOfCell(tile, cell));
+  choosePartsOfCells(tile);
+  for (int kind = 0; kind < PartBoxes::kKinds; ++kind) {
+    m_bounds.parts().find(bodies, static_cast<PartBoxes::Kind>(kind), around, m_chosen[1][kind]);
+  }
+}
+
+GuardBox GuardTiles::boxOfCell(std::size_t tile, int cell) {
+  const Cloth& cloth = m_bounds.cloths()[m_tiles[tile].cloth];
+  const GuardMesh::Cell& parts = cloth.mesh->cells[toSize(cell)];
+  if (cloth.mesh->isGrid()) return m_bounds.cell(cloth, parts.row, parts.column);
+  GuardBox box;
+  for (const int node : cloth.mesh->faces[toSize(parts.face)].node) {
+    box.include(m_bounds.parts().vertex(cloth.firstNode + node));
+  }
+  return box;
 }
 
 // Of a tile those that may meet what is in this box.
-void GuardTiles::findCellsIn(std::size_t tile, const GuardBox& box, std::vector<NearCell>& cells) {
-  cells.clear();
+void GuardTiles::findCellsIn(std::size_t tile, const GuardBox& box, bool newOnly) {
+  m_cells.clear();
   const Cloth& cloth = m_bounds.cloths()[m_tiles[tile].cloth];
-  const GuardMesh::Tile& parts = cloth.mesh->tiles[toSize(m_tiles[tile].index)];
-  const bool goesByNodes = m_goesByNodes[m_tiles[tile].cloth];
-  for (int cell = parts.cell; cell < parts.endCell; ++cell) {
-    const GuardBox& bounds = m_bounds.cell(cloth, cell);
-    if (!bounds.overlaps(box)) continue;
-    bool isNew = m_areOnlyNew && m_isNew[tile];
-    if (isNew && goesByNodes) isNew = hasNew(cloth, cloth.mesh->faces[toSize(cloth.mesh->cells[toSize(cell)].face)]);
-    cells.push_back({cell, &bounds, isNew});
+  const GuardMesh::Tile& cells = cloth.mesh->tiles[toSize(m_tiles[tile].index)];
+  if (cloth.mesh->isGrid()) {
+    for (int cell = cells.cell; cell < cells.endCell; ++cell) {
+      if (boxOfCell(tile, cell).overlaps(box)) m_cells.push_back(cell);
+    }
+    return;
+  }
+  ChosenParts& faces = m_chosen[0][PartBoxes::kFaces];
+  m_bounds.parts().find(tile, PartBoxes::kFaces, box, faces);
+  for (const PartBoxes::Chosen& chosen : faces) {
+    unsigned parts = newOnly ? chosen.parts & chosen.block->isNew : chosen.parts;
+    for (int face = chosen.block->first; parts != 0; parts >>= 1, ++face) {
+      if ((parts & 1) != 0) m_cells.push_back(face);
+    }
   }
 }
 
-// Cells that a plane tells from all of a body.
-void GuardTiles::leaveOutBeyond(const Cloth& cloth, const Cloth& bodies, int shell, std::vector<NearCell>& cells) {
-  const auto isBeyond = [&](const NearCell& near) {
-    const GuardMesh& mesh = *cloth.mesh;
-    const GuardMesh::Cell& parts = mesh.cells[toSize(near.cell)];
-    int nodes[4];
-    int count = 0;
-    if (mesh.isGrid()) {
-      const GridRectangle around = GuardGrid{mesh}.nodesOf(GuardGrid::kCells, parts.row, parts.column);
-      for (int row = around.firstRow; row <= around.lastRow; ++row) {
-        for (int column = around.firstColumn; column <= around.lastColumn; ++column) {
-          nodes[count++] = cloth.firstNode + row * mesh.columns + column;
-        }
+// Whether a plane tells a cell from all of a body.
+bool GuardTiles::isBeyond(std::size_t tile, int cell, std::size_t bodies) {
+  const Cloth& cloth = m_bounds.cloths()[m_tiles[tile].cloth];
+  const Cloth& other = m_bounds.cloths()[m_tiles[bodies].cloth];
+  const GuardMesh& mesh = *cloth.mesh;
+  const GuardMesh::Cell& parts = mesh.cells[toSize(cell)];
+  int nodes[4];
+  int count = 0;
+  if (mesh.isGrid()) {
+    const GridRectangle around = GuardGrid{mesh}.nodesOf(GuardGrid::kCells, parts.row, parts.column);
+    for (int row = around.firstRow; row <= around.lastRow; ++row) {
+      for (int column = around.firstColumn; column <= around.lastColumn; ++column) {
+        nodes[count++] = cloth.firstNode + row * mesh.columns + column;
       }
-    } else {
-      for (const int node : mesh.faces[toSize(parts.face)].node) nodes[count++] = cloth.firstNode + node;
     }
-    return m_planes.areBeyond(nodes, count, *bodies.mesh, shell, bodies.firstNode);
+  } else {
+    for (const int node : mesh.faces[toSize(parts.face)].node) nodes[count++] = cloth.firstNode + node;
+  }
+  const int shell = other.mesh->shellOfTile[toSize(m_tiles[bodies].index)];
+  return m_planes.areBeyond(nodes, count, *other.mesh, shell, other.firstNode);
+}
+
+void GuardTiles::choosePartsOfCells(std::size_t tile) {
+  const Cloth& cloth = m_bounds.cloths()[m_tiles[tile].cloth];
+  const auto choose = [&](PartBoxes::Kind kind, int begin, int end) {
+    const PartBoxes::Block* const blocks = m_bounds.parts().blocks(tile, kind).begin;
+    for (int part = begin; part < end; ++part) {
+      const std::size_t k = toSize(part - blocks->first);
+      m_chosen[0][kind].add(blocks[k / PartBoxes::kLanes], 1u << k % PartBoxes::kLanes);
+    }
   };
-  cells.erase(std::remove_if(cells.begin(), cells.end(), isBeyond), cells.end());
+  for (ChosenParts& chosen : m_chosen[0]) chosen.clear();
+  for (const int cell : m_cells) {
+    const GuardMesh::Cell& parts = cloth.mesh->cells[toSize(cell)];
+    const GuardMesh::Cell& next = cloth.mesh->cells[toSize(cell) + 1];
+    choose(PartBoxes::kVertices, parts.vertex, next.vertex);
+    choose(PartBoxes::kEdges, parts.edge, next.edge);
+    choose(PartBoxes::kFaces, parts.face, next.face);
+  }
+}
+
+void GuardTiles::meetVerticesAndFaces(std::size_t a, int chosenA, std::size_t b, int chosenB) {
+  const Cloth& clothA = m_bounds.cloths()[m_tiles[a].cloth];
+  const Cloth& clothB = m_bounds.cloths()[m_tiles[b].cloth];
+  const std::size_t count = PartBoxes::meet(m_chosen[chosenA][PartBoxes::kVertices],
+                                            m_chosen[chosenB][PartBoxes::kFaces], m_areOnlyNew, m_meetings);
+  for (std::size_t k = 0; k < count; ++k) {
+    const int vertex = clothA.firstNode + clothA.mesh->vertices[toSize(m_meetings[k].part)];
+    const int(&face)[3] = clothB.mesh->faces[toSize(m_meetings[k].other)].node;
+    m_pairs->vertexFace.push_back(
+        {{vertex, clothB.firstNode + face[0], clothB.firstNode + face[1], clothB.firstNode + face[2]},
+         {m_pairOfTiles[0], m_pairOfTiles[1]}});
+  }
+}
+
+void GuardTiles::meetEdges(std::size_t a, std::size_t b) {
+  const Cloth& clothA = m_bounds.cloths()[m_tiles[a].cloth];
+  const Cloth& clothB = m_bounds.cloths()[m_tiles[b].cloth];
+  const std::size_t count =
+      PartBoxes::meet(m_chosen[0][PartBoxes::kEdges], m_chosen[1][PartBoxes::kEdges], m_areOnlyNew, m_meetings);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto [part, other] = m_meetings[k];
+    if (a == b && other <= part) continue;
+    const int(&edge)[2] = clothA.mesh->edges[toSize(part)].node;
+    const int(&across)[2] = clothB.mesh->edges[toSize(other)].node;
+    m_pairs->edgeEdge.push_back({{clothA.firstNode + edge[0], clothA.firstNode + edge[1], clothB.firstNode + across[0],
+                                  clothB.firstNode + across[1]},
+                                 {m_pairOfTiles[0], m_pairOfTiles[1]}});
+  }
 }
 
 // Two that may meet: of their quarters those that may.
@@ -360,7 +428,7 @@ void GuardTiles::add(const GuardPair& pair, std::vector<GuardPair>& pairs) const
       if (pair.node[i] == pair.node[k]) return;
     }
   }
-  if (!m_areOnlyNew || hasNew(pair)) pairs.push_back(pair);
+  pairs.push_back(pair);
 }
 
 // The vertices of a cell and the faces of another.

@@ -44,12 +44,6 @@ class GuardTiles {
     int index;  // in the cloth's mesh
   };
 
-  struct NearCell {
-    int cell;
-    const GuardBox* box;
-    bool isNew;
-  };
-
   // Of a grid.
   struct Square {
     int level;
@@ -64,7 +58,6 @@ class GuardTiles {
   bool areLookedAtAgain(int tileA, int tileB) const;
   bool goByNodes(std::size_t tileA, std::size_t tileB) const;
   bool hasNew(const GuardPair& pair) const;
-  bool hasNew(const Cloth& cloth, const GuardMesh::Face& face) const;
   void markTilesOf(int node);
   void boundNewCells(std::size_t tile);
   void findStirredTiles();
@@ -75,9 +68,14 @@ class GuardTiles {
   void lookAtNearTiles(std::size_t a, std::size_t b);
   bool areFlat(const Cloth& cloth, int tileA, int tileB);
   void lookAtTiles(std::size_t a, std::size_t b);
-  void findCellsIn(std::size_t tile, const GuardBox& box, std::vector<NearCell>& cells);
-  static void keepNew(std::vector<NearCell>& cells);
-  void leaveOutBeyond(const Cloth& cloth, const Cloth& bodies, int shell, std::vector<NearCell>& cells);
+  void chooseParts(std::size_t a, std::size_t b);
+  void choosePartsNotBeyond(std::size_t tile, std::size_t bodies);
+  void findCellsIn(std::size_t tile, const GuardBox& box, bool newOnly);
+  bool isBeyond(std::size_t tile, int cell, std::size_t bodies);
+  GuardBox boxOfCell(std::size_t tile, int cell);
+  void choosePartsOfCells(std::size_t tile);
+  void meetVerticesAndFaces(std::size_t a, int chosenA, std::size_t b, int chosenB);
+  void meetEdges(std::size_t a, std::size_t b);
   void lookAtSquares(const Cloth& a, const Square& squareA, const Cloth& b, const Square& squareB);
   void lookAtCells(const Cloth& a, int cellA, const Cloth& b, int cellB);
   void verticesAndFaces(const Cloth& a, int cellA, const Cloth& b, int cellB);
@@ -90,17 +88,19 @@ class GuardTiles {
   std::vector<bool> m_isImposed;         // of each cloth
   std::vector<bool> m_isFlat;            // of each cloth
   std::vector<Tile> m_tiles;
-  std::vector<bool> m_goesByNodes;  // of each cloth: pairs are looked at again that have a node of which that is so
-  std::vector<bool> m_isNew;        // of each tile: what is expected of its nodes
-  std::vector<unsigned char> m_isNewNode;  // of each node
-  std::vector<GuardBox> m_newCells;        // of each tile that is new, where cloths go by nodes: around those that are
-  std::vector<bool> m_isStirred;           // of each tile: what was found of it may be another
-  std::vector<std::size_t> m_stirred;      // of m_sorted
+  std::vector<bool> m_goesByNodes;     // of each cloth: pairs are looked at again that have a node of which that is so
+  std::vector<bool> m_isNew;           // of each tile: what is expected of its nodes
+  std::vector<GuardBox> m_newCells;    // of each tile that is new, where cloths go by nodes: around those that are
+  std::vector<bool> m_isStirred;       // of each tile: what was found of it may be another
+  std::vector<std::size_t> m_stirred;  // of m_sorted
   bool m_areAllNew = true;
   bool m_areOnlyNew = false;  // pairs with a new node are wanted, of two tiles
   std::vector<int> m_sorted;  // tiles, by where their boxes begin along an axis
   int m_axis = 0;
-  std::vector<NearCell> m_cells[2];  // of two tiles those that may meet
+  using ChosenParts = PartBoxes::ChosenParts;
+  ChosenParts m_chosen[2][PartBoxes::kKinds];  // of two tiles those that may meet
+  std::vector<int> m_cells;                    // of the first of them
+  std::vector<PartBoxes::Meeting> m_meetings;
   Scope m_scope = {};
   GuardCandidates* m_pairs = nullptr;
   int m_pairOfTiles[2] = {0, 0};  // that are looked at

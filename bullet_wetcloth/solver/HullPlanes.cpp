@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/solver/HullPlanes.h"
 
+#include "bullet_wetcloth/numerics/BestLanes.h"
+#include "bullet_wetcloth/numerics/Quad.h"
+
+#include <algorithm>
+
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
@@ -15,28 +20,50 @@ void HullPlanes::add(const std::array<double, 3>& normal, double offset) {
   }
 }
 
-ShapeDistance HullPlanes::distanceTo(const btVector3& point) const {
-  const btScalar x = point.x(), y = point.y(), z = point.z();
-  btScalar most[kLanes];
-  int where[kLanes];
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    most[lane] = -BT_LARGE_FLOAT;
-    where[lane] = 0;
-  }
-  for (std::size_t b = 0; b < m_blocks.size(); ++b) {
-    const Block& block = m_blocks[b];
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const btScalar distance =
-          block.normal[0][lane] * x + block.normal[1][lane] * y + block.normal[2][lane] * z - block.offset[lane];
-      const bool isFarther = distance > most[lane];
-      most[lane] = isFarther ? distance : most[lane];
-      where[lane] = isFarther ? static_cast<int>(b) : where[lane];
+// Of each lane the block whose plane a point is farthest outside of, and how far [m].
+struct HullPlanes::Farthest {
+  const std::vector<Block>& blocks;
+  const btVector3& point;
+  btScalar enough;
+  btScalar (&most)[kLanes];
+  btScalar (&where)[kLanes];
+
+  template <class Lanes>
+  WETCLOTH_INLINE void run() const {
+    constexpr std::size_t kParts = kLanes / kLaneCount<Lanes>;
+    const Lanes x = everywhere<Lanes>(point.x());
+    const Lanes y = everywhere<Lanes>(point.y());
+    const Lanes z = everywhere<Lanes>(point.z());
+    Lanes farthest[kParts];
+    Lanes at[kParts];
+    for (std::size_t part = 0; part < kParts; ++part) {
+      farthest[part] = everywhere<Lanes>(-BT_LARGE_FLOAT);
+      at[part] = everywhere<Lanes>(0);
+    }
+    unsigned areEnough = 0;
+    for (std::size_t b = 0; b < blocks.size() && areEnough == 0; ++b) {
+      const Block& block = blocks[b];
+      for (std::size_t part = 0; part < kParts; ++part) {
+        const std::size_t lane = part * kLaneCount<Lanes>;
+        const Lanes distance = load<Lanes>(block.normal[0] + lane) * x + load<Lanes>(block.normal[1] + lane) * y +
+                               load<Lanes>(block.normal[2] + lane) * z - load<Lanes>(block.offset + lane);
+        at[part] = choose(distance > farthest[part], everywhere<Lanes>(static_cast<btScalar>(b)), at[part]);
+        farthest[part] = choose(distance > farthest[part], distance, farthest[part]);
+        areEnough |= bitsOfLanes<Lanes>(farthest[part] > everywhere<Lanes>(enough));
+      }
+    }
+    for (std::size_t part = 0; part < kParts; ++part) {
+      store(most + part * kLaneCount<Lanes>, farthest[part]);
+      store(where + part * kLaneCount<Lanes>, at[part]);
     }
   }
-  std::size_t best = 0;
-  for (std::size_t lane = 1; lane < kLanes; ++lane) {
-    if (most[lane] > most[best]) best = lane;
-  }
+};
+
+ShapeDistance HullPlanes::distanceTo(const btVector3& point, btScalar enough) const {
+  btScalar most[kLanes];
+  btScalar where[kLanes];
+  runOnBestLanes(Farthest{m_blocks, point, enough, most, where});
+  const std::size_t best = static_cast<std::size_t>(std::max_element(most, most + kLanes) - most);
   const Block& block = m_blocks[static_cast<std::size_t>(where[best])];
   return {most[best], btVector3(block.normal[0][best], block.normal[1][best], block.normal[2][best])};
 }

@@ -21,7 +21,8 @@ class HullPlanes {
   bool isEmpty() const { return m_count == 0; }
   /// Of a point in the hull's own frame [m]: from the plane that it is farthest outside of, or least inside. So it is
   /// exact inside and before a face; before an edge or a corner, less than the distance. Not of an empty one.
-  ShapeDistance distanceTo(const btVector3& point) const;
+  /// @param enough  [m]: of what is farther from some plane it may be that plane's distance
+  ShapeDistance distanceTo(const btVector3& point, btScalar enough = BT_LARGE_FLOAT) const;
 
  private:
   static constexpr std::size_t kLanes = 8;
@@ -30,6 +31,7 @@ class HullPlanes {
     btScalar normal[3][kLanes];
     btScalar offset[kLanes];
   };
+  struct Farthest;
 
   std::vector<Block> m_blocks;  // the last one is filled up with its last plane
   std::size_t m_count = 0;

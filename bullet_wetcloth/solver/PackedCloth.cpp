@@ -73,6 +73,7 @@ void PackedCloth::takeMesh() {
   m_grid = slots.grid;
   m_guardMesh.reset();
   m_guardPlaces.clear();
+  for (PackedNodes::Lane& settled : m_settled) settled.clear();
   m_coincident.keepOf(toSize(m_body.m_nodes.size()));
   m_facesByNodes.reset();
   m_nodes.reset(slots);
@@ -285,6 +286,10 @@ void PackedCloth::takeSmallStep(int index) {
 void PackedCloth::endSmallSteps() {
   m_step.end(m_nodes.moving());
   m_isGuarded ? m_pins.end(m_nodes) : m_pins.forget();
+  for (int axis = 0; axis < 3; ++axis) {
+    m_settled[axis].clear();
+    if (m_isGuarded && !m_grid) m_settled[axis] = m_nodes.velocity[axis];
+  }
   m_isSolved = true;
 }
 
@@ -318,7 +323,12 @@ ClothGuard::Cloth PackedCloth::guarded() {
           isNew,
           &m_wetness,
           m_nodes.nodesOfSlots(),
-          m_coincident.isEmpty() ? nullptr : &m_coincident};
+          m_coincident.isEmpty() ? nullptr : &m_coincident,
+          {settledOf(0), settledOf(1), settledOf(2)}};
+}
+
+const btScalar* PackedCloth::settledOf(int axis) const {
+  return m_settled[axis].size() == m_nodes.velocity[axis].size() ? m_settled[axis].data() : nullptr;
 }
 
 bool PackedCloth::separateCoincident() {
@@ -374,6 +384,7 @@ void PackedCloth::transferGuardMesh(StateArchive& archive) {
   archive.array(places);
   archive.value(m_guardEdge);
   m_coincident.transferState(archive, m_body.m_nodes.size());
+  for (PackedNodes::Lane& settled : m_settled) archive.growing(settled, [&](btScalar& speed) { archive.value(speed); });
   if (!archive.isRestoring()) return;
   m_guardPlaces = places;
   m_guardMesh.reset();

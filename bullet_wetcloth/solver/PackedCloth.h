@@ -95,6 +95,7 @@ class PackedCloth {
   bool isCrumpled() const;
   btScalar rounding() const;
   LinkedNodes linked();
+  const btScalar* settledOf(int axis) const;
   void updateBounds();
   void updateFaceTree();
   void makeGuardMesh();
@@ -117,6 +118,7 @@ class PackedCloth {
   std::vector<btVector3> m_guardPlaces;          // by which it was made [m]
   double m_guardEdge = 0;                        // its mean edge then [m]
   CoincidentNodes m_coincident;                  // of it
+  PackedNodes::Lane m_settled[3];                // velocities at the end of the last step that was guarded [m/s]
   std::unique_ptr<FacesByNodes> m_facesByNodes;  // once its contacts are listed
   PinnedWays m_pins;
   LayerWetness m_wetness;

@@ -35,15 +35,20 @@ bool isOwnHull(const btCollisionShape& shape, const btCollisionShape& root) {
 // A hull and Bullet's margin around it.
 class MeasuredHull {
  public:
-  MeasuredHull(const HullPlanes& planes, btScalar margin) : m_planes(planes), m_margin(margin) {}
+  /// @param reach  [m]: nothing is asked of what is farther away
+  MeasuredHull(const HullPlanes& planes, btScalar margin, btScalar reach)
+      : m_planes(planes), m_margin(margin), m_enough(kBeyondRounding * (margin + reach)) {}
   ShapeDistance distanceTo(const btVector3& point) const {
-    const ShapeDistance found = m_planes.distanceTo(point);
+    const ShapeDistance found = m_planes.distanceTo(point, m_enough);
     return {found.distance - m_margin, found.normal};
   }
 
  private:
+  static constexpr btScalar kBeyondRounding = btScalar(1.001);
+
   const HullPlanes& m_planes;
   btScalar m_margin;
+  btScalar m_enough;
 };
 
 // Lists contacts of one object whose distance is measured.
@@ -137,7 +142,7 @@ void RigidDetection::detect(btSoftBody& body, LocalNodes& nodes, const btCollisi
   if (isOwnHull(shape, *root.getCollisionShape())) {
     const auto& hull = static_cast<const btConvexHullShape&>(shape);
     const HullPlanes& sides = m_hulls.of(hull).sides;
-    if (!sides.isEmpty()) return testEachBy(MeasuredHull(sides, hull.getMargin()));
+    if (!sides.isEmpty()) return testEachBy(MeasuredHull(sides, hull.getMargin(), margin));
   }
   btSoftColliders::CollideSDF_RS test;
   test.psb = &body;

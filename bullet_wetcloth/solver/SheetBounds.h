@@ -29,8 +29,8 @@ struct GuardBox {
     high = high + everywhere<Quad>(by);
   }
   WETCLOTH_INLINE bool overlaps(const GuardBox& other) const {
-    const auto isApart = (low > other.high) | (other.low > high);
-    return (isApart[0] | isApart[1] | isApart[2]) == 0;
+    constexpr unsigned kAxes = 7;
+    return (bitsOf((low > other.high) | (other.low > high)) & kAxes) == 0;
   }
 };
 

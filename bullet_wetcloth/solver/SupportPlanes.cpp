@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/bullet/Index.h"
 #include "bullet_wetcloth/numerics/BestLanes.h"
 #include "bullet_wetcloth/numerics/Lanes.h"
+#include "bullet_wetcloth/numerics/Quad.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,7 @@ btVector3 middleOfWay(const GuardNodes::Way& way) { return (asVector(way.start) 
 
 }  // namespace
 
-// Of a part's nodes: where they are at the start and at the end, and how far beyond a plane they have to be.
+// Of a part's nodes: where they are at the start and at the end, in turns, and how far beyond a plane they have to be.
 struct SupportPlanes::Ways {
   btVector3 place[8];
   int count = 0;
@@ -68,13 +69,13 @@ bool SupportPlanes::areBeyond(const int* nodes, int count, const GuardMesh& mesh
 bool SupportPlanes::isBeyond(const Shell& shell, std::size_t plane, const Ways& ways) {
   const Block& block = shell.blocks[plane / kLanes];
   const std::size_t lane = plane % kLanes;
-  btScalar least = std::numeric_limits<btScalar>::infinity();
   for (int k = 0; k < ways.count; ++k) {
     const btVector3& place = ways.place[k];
-    least = std::min(least, block.normal[0][lane] * place.x() + block.normal[1][lane] * place.y() +
-                                block.normal[2][lane] * place.z());
+    const btScalar along =
+        block.normal[0][lane] * place.x() + block.normal[1][lane] * place.y() + block.normal[2][lane] * place.z();
+    if (!(along - block.offset[k % 2][lane] > ways.wanted)) return false;
   }
-  return least - block.offset[lane] > ways.wanted;
+  return true;
 }
 
 // Of each lane the block whose plane a point is farthest beyond, and how far [m].
@@ -95,7 +96,7 @@ struct SupportPlanes::Farthest {
       for (std::size_t b = 0; b < blocks.size(); ++b) {
         const Block& block = blocks[b];
         const Lanes distance = load<Lanes>(block.normal[0] + lane) * x + load<Lanes>(block.normal[1] + lane) * y +
-                               load<Lanes>(block.normal[2] + lane) * z - load<Lanes>(block.offset + lane);
+                               load<Lanes>(block.normal[2] + lane) * z - load<Lanes>(block.offset[0] + lane);
         at = choose(distance > farthest, everywhere<Lanes>(static_cast<btScalar>(b)), at);
         farthest = choose(distance > farthest, distance, farthest);
       }
@@ -113,6 +114,39 @@ std::size_t SupportPlanes::farthest(const Shell& shell, const btVector3& point) 
   const std::size_t best = static_cast<std::size_t>(std::max_element(most, most + kLanes) - most);
   return static_cast<std::size_t>(where[best]) * kLanes + best;
 }
+
+// How far the body reaches along the normals of a block at the start and at the end. In between it reaches no farther
+// than on the straight way from one to the other, since the farthest of places that go straight is a convex function
+// of time.
+struct SupportPlanes::Support {
+  const GuardNodes::Way* begin;
+  const GuardNodes::Way* end;
+  btScalar slack;
+  Block& block;
+
+  template <class Lanes>
+  WETCLOTH_INLINE void run() const {
+    for (std::size_t lane = 0; lane < kLanes; lane += kLaneCount<Lanes>) {
+      const Lanes normal[3] = {load<Lanes>(block.normal[0] + lane), load<Lanes>(block.normal[1] + lane),
+                               load<Lanes>(block.normal[2] + lane)};
+      Lanes start = everywhere<Lanes>(-std::numeric_limits<btScalar>::infinity());
+      Lanes finish = start;
+      for (const GuardNodes::Way* way = begin; way != end; ++way) {
+        start = greater(along(normal, way->start), start);
+        finish = greater(along(normal, way->end), finish);
+      }
+      store(block.offset[0] + lane, start + everywhere<Lanes>(slack));
+      store(block.offset[1] + lane, finish + everywhere<Lanes>(slack));
+    }
+  }
+
+ private:
+  template <class Lanes>
+  WETCLOTH_INLINE static Lanes along(const Lanes (&normal)[3], const GuardNodes::Place& place) {
+    return normal[0] * everywhere<Lanes>(place.at[0]) + normal[1] * everywhere<Lanes>(place.at[1]) +
+           normal[2] * everywhere<Lanes>(place.at[2]);
+  }
+};
 
 void SupportPlanes::find(const GuardMesh& mesh, const GuardMesh::Shell& of, int firstNode, Shell& shell) const {
   const GuardNodes::Way* const ways = &m_nodes->expected[toSize(firstNode)];
@@ -143,17 +177,7 @@ void SupportPlanes::find(const GuardMesh& mesh, const GuardMesh::Shell& of, int 
     }
   }
   for (Block& block : shell.blocks) {
-    std::fill_n(block.offset, kLanes, -std::numeric_limits<btScalar>::infinity());
-    for (int node = of.node; node < of.endNode; ++node) {
-      for (const GuardNodes::Place* const place : {&ways[node].start, &ways[node].end}) {
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-          const btScalar along = block.normal[0][lane] * place->at[0] + block.normal[1][lane] * place->at[1] +
-                                 block.normal[2][lane] * place->at[2];
-          block.offset[lane] = along > block.offset[lane] ? along : block.offset[lane];
-        }
-      }
-    }
-    for (btScalar& offset : block.offset) offset += kAlongAnyAxis * slack;
+    runOnBestLanes(Support{ways + of.node, ways + of.endNode, kAlongAnyAxis * slack, block});
   }
 }
 

@@ -28,7 +28,7 @@ class SupportPlanes {
   static constexpr std::size_t kLanes = 8;
   struct Block {
     btScalar normal[3][kLanes];
-    btScalar offset[kLanes];
+    btScalar offset[2][kLanes];  // at the start and at the end
   };
   struct Shell {
     bool isFound = false;
@@ -37,6 +37,7 @@ class SupportPlanes {
   };
   struct Ways;
   struct Farthest;
+  struct Support;
 
   void find(const GuardMesh& mesh, const GuardMesh::Shell& of, int firstNode, Shell& shell) const;
   static std::size_t farthest(const Shell& shell, const btVector3& point);

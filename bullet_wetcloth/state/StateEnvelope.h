@@ -13,7 +13,7 @@ inline namespace WETCLOTH_PRECISION {
 /// What a saved state is wrapped in: a mark, the version of the format and of Bullet, the precision, the kind of world,
 /// the length and a hash of it all.
 struct StateEnvelope {
-  static constexpr std::uint32_t kVersion = 12;  ///< of the format
+  static constexpr std::uint32_t kVersion = 13;  ///< of the format
 
   /// Writes the state; throws StateError when the stream fails.
   static void write(std::ostream& stream, std::uint32_t worldKind, const std::vector<unsigned char>& state);
