@@ -30,20 +30,20 @@ struct HullPlanes::Farthest {
 
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
-    constexpr std::size_t kParts = kLanes / kLaneCount<Lanes>;
+    constexpr std::size_t kLoads = kLanes / kLaneCount<Lanes>;
     const Lanes x = everywhere<Lanes>(point.x());
     const Lanes y = everywhere<Lanes>(point.y());
     const Lanes z = everywhere<Lanes>(point.z());
-    Lanes farthest[kParts];
-    Lanes at[kParts];
-    for (std::size_t part = 0; part < kParts; ++part) {
+    Lanes farthest[kLoads];
+    Lanes at[kLoads];
+    for (std::size_t part = 0; part < kLoads; ++part) {
       farthest[part] = everywhere<Lanes>(-BT_LARGE_FLOAT);
       at[part] = everywhere<Lanes>(0);
     }
     unsigned areEnough = 0;
     for (std::size_t b = 0; b < blocks.size() && areEnough == 0; ++b) {
       const Block& block = blocks[b];
-      for (std::size_t part = 0; part < kParts; ++part) {
+      for (std::size_t part = 0; part < kLoads; ++part) {
         const std::size_t lane = part * kLaneCount<Lanes>;
         const Lanes distance = load<Lanes>(block.normal[0] + lane) * x + load<Lanes>(block.normal[1] + lane) * y +
                                load<Lanes>(block.normal[2] + lane) * z - load<Lanes>(block.offset + lane);
@@ -52,7 +52,7 @@ struct HullPlanes::Farthest {
         areEnough |= bitsOfLanes<Lanes>(farthest[part] > everywhere<Lanes>(enough));
       }
     }
-    for (std::size_t part = 0; part < kParts; ++part) {
+    for (std::size_t part = 0; part < kLoads; ++part) {
       store(most + part * kLaneCount<Lanes>, farthest[part]);
       store(where + part * kLaneCount<Lanes>, at[part]);
     }
