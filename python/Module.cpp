@@ -30,6 +30,13 @@ struct PythonCloth {
   const wetcloth::WetCloth& wet() const { return scene->cloth(index); }
 };
 
+/// Without the interpreter's lock: an action that may wait for another thread's step must not stop all threads.
+template <class Action>
+decltype(auto) withoutLock(const Action& action) {
+  const py::gil_scoped_release others;
+  return action();
+}
+
 // --- arrays -----------------------------------------------------------------------------------------------------
 
 /// To look at, not to write to: Bullet would not notice. It keeps the scene alive.
@@ -54,7 +61,7 @@ py::array water(const PythonCloth& cloth) {
 }
 
 py::array colours(const PythonCloth& cloth) {
-  const std::vector<float>& colours = cloth.scene->colours(cloth.index);
+  const std::vector<float>& colours = withoutLock([&]() -> auto& { return cloth.scene->colours(cloth.index); });
   return view(cloth, colours.data(), {static_cast<py::ssize_t>(colours.size() / 3), 3},
               {3 * sizeof(float), sizeof(float)});
 }
@@ -90,12 +97,12 @@ void movePins(const PythonCloth& cloth, const Numbers& places) {
   for (py::ssize_t i = 0; i < places.shape(0); ++i) {
     goals.emplace_back(btScalar(at(i, 0)), btScalar(at(i, 1)), btScalar(at(i, 2)));
   }
-  cloth.scene->movePins(cloth.index, std::move(goals));
+  withoutLock([&] { cloth.scene->movePins(cloth.index, std::move(goals)); });
 }
 
 void setWater(const PythonCloth& cloth, const Numbers& held) {
   if (held.ndim() != 1) throw std::invalid_argument("water must have the shape (nodes,)");
-  cloth.scene->setWater(cloth.index, std::vector<double>(held.data(), held.data() + held.size()));
+  withoutLock([&] { cloth.scene->setWater(cloth.index, std::vector<double>(held.data(), held.data() + held.size())); });
 }
 
 // --- ledgers ----------------------------------------------------------------------------------------------------
@@ -290,12 +297,16 @@ void bindCloth(py::module_& module) {
           "even speed.\n\nRaises ValueError when the shape is another one, a number is not finite, or the scene itself "
           "moves them.")
       .def_property_readonly(
-          "effects", [](const PythonCloth& cloth) { return toPython(cloth.scene->effects(cloth.index)); },
+          "effects",
+          [](const PythonCloth& cloth) {
+            return toPython(withoutLock([&] { return cloth.scene->effects(cloth.index); }));
+          },
           "Its effects as in a scene file, a dictionary: a copy.")
       .def(
           "change",
           [](const PythonCloth& cloth, const std::string& effect, const py::kwargs& parameters) {
-            cloth.scene->change(cloth.index, effect, toJson(parameters));
+            const Json patch = toJson(parameters);
+            withoutLock([&] { cloth.scene->change(cloth.index, effect, patch); });
           },
           py::arg("effect"),
           "Changes parameters of an effect, from the next step on, by the keys of a scene file: "
@@ -304,7 +315,9 @@ void bindCloth(py::module_& module) {
           "cloth does not have is added.\n\nRaises InputError as a file would; then nothing has changed.")
       .def(
           "remove",
-          [](const PythonCloth& cloth, const std::string& effect) { cloth.scene->remove(cloth.index, effect); },
+          [](const PythonCloth& cloth, const std::string& effect) {
+            withoutLock([&] { cloth.scene->remove(cloth.index, effect); });
+          },
           py::arg("effect"), "Takes an effect away. Raises ValueError when the cloth does not have it.");
 }
 

@@ -5,6 +5,7 @@ import gc
 import os
 import tempfile
 import threading
+import time
 import unittest
 
 import numpy as np
@@ -231,6 +232,24 @@ class Threads(unittest.TestCase):
             rounds += 1
         # With the interpreter's lock held in the step this thread would get no turn but before and after.
         self.assertGreater(rounds, 100)
+
+
+class Waiting(unittest.TestCase):
+    def test_who_waits_for_a_step_does_not_stop_others(self):
+        long = {**scene({"wind": {"velocity_m_s": [0, 0, 0]}}), "substeps": 1000, "step_s": 1}
+        long["cloths"][0]["patch"].update({"columns": 40, "rows": 40})  # a step takes a good part of a second
+        slow = wetcloth.open(long)
+        stepping = threading.Thread(target=slow.step)
+        changing = threading.Thread(target=slow.cloths[0].change, args=("wind",), kwargs={"velocity_m_s": [1, 0, 0]})
+        stepping.start()
+        changing.start()
+        time.sleep(0.02)  # it waits by now
+        rounds = 0
+        while stepping.is_alive():
+            rounds += 1
+        changing.join()
+        self.assertGreater(rounds, 100)
+        self.assertEqual(slow.cloths[0].effects["wind"], {"velocity_m_s": [1, 0, 0]})
 
 
 class Errors(unittest.TestCase):
