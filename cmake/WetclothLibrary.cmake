@@ -63,6 +63,13 @@ function(wetcloth_add_library target)
   endif()
 endfunction()
 
+# wetcloth_compile_for_shared(<target>): a static library of whose objects a test makes a shared one, so that it need not
+# compile them anew. Whoever links it into a plugin shows what its headers mark.
+function(wetcloth_compile_for_shared target)
+  target_compile_definitions(${target} PRIVATE WETCLOTH_SHARED)
+  set_property(GLOBAL PROPERTY WETCLOTH_OBJECTS_FOR_SHARED ${target})
+endfunction()
+
 # wetcloth_install_library(<target> <export set> <component>): with its part of the CMake package
 function(wetcloth_install_library target set component)
   install(
