@@ -27,7 +27,19 @@ constexpr std::size_t kLaneCount = sizeof(Lanes) / sizeof(btScalar);
 
 template <class Lanes>
 WETCLOTH_INLINE Lanes everywhere(btScalar x) {
-  return x - Lanes();
+  if constexpr (kLaneCount<Lanes> < 8) {
+    return x - Lanes();
+  } else {
+    // As integers: GCC 12 puts a number into eight lanes one by one.
+    using Integers = decltype(Lanes() > Lanes());
+    std::decay_t<decltype(Integers()[0])> bits;
+    static_assert(sizeof bits == sizeof x);
+    std::memcpy(&bits, &x, sizeof x);
+    const Integers all = bits | Integers();
+    Lanes lanes;
+    std::memcpy(&lanes, &all, sizeof lanes);
+    return lanes;
+  }
 }
 
 template <class Lanes>

@@ -4,13 +4,16 @@
 #include "bullet_wetcloth/bullet/Index.h"
 
 #include <algorithm>
-#include <tuple>
+#include <array>
+#include <utility>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
+constexpr int kNone = -1;
+constexpr std::pair<int, int> kNoSide = {kNone, kNone};
 constexpr std::size_t kFacesInTile = 64;         // unless they are a shell
 constexpr std::size_t kMostFacesOfShell = 1000;  // planes are measured from all corners
 
@@ -29,23 +32,29 @@ void BodyMesh::clear() {
 }
 
 // Each edge once, at the first of its faces, in the order of these.
-void BodyMesh::findEdges(const std::vector<ShapeFaces::Face>& faces) {
+void BodyMesh::findEdges(const ShapeFaces& shape) {
   m_sides.clear();
-  for (std::size_t face = 0; face < faces.size(); ++face) {
+  m_lastSide.assign(shape.corners().size(), kNone);
+  const auto isKnown = [&](const std::pair<int, int>& ends) {
+    int side = m_lastSide[toSize(ends.first)];
+    while (side != kNone && m_sides[toSize(side)].high != ends.second) side = m_sides[toSize(side)].before;
+    return side != kNone;
+  };
+  for (std::size_t face = 0; face < shape.faces().size(); ++face) {
+    const ShapeFaces::Face& of = shape.faces()[face];
+    std::array<std::pair<int, int>, 3> sides;
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!faces[face].isEdge[k]) continue;
-      const auto ends = std::minmax(faces[face].corner[k], faces[face].corner[(k + 1) % 3]);
-      m_sides.push_back({ends.first, ends.second, static_cast<int>(face)});
+      sides[k] = std::minmax({of.corner[k], of.corner[(k + 1) % 3]});
+      if (!of.isEdge[k]) sides[k] = kNoSide;
+    }
+    std::sort(sides.begin(), sides.end());
+    for (const auto& ends : sides) {
+      if (ends == kNoSide || isKnown(ends)) continue;
+      int& last = m_lastSide[toSize(ends.first)];
+      m_sides.push_back({ends.first, ends.second, static_cast<int>(face), last});
+      last = static_cast<int>(m_sides.size()) - 1;
     }
   }
-  std::sort(m_sides.begin(), m_sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face);
-  });
-  const auto isSame = [](const Side& a, const Side& b) { return a.low == b.low && a.high == b.high; };
-  m_sides.erase(std::unique(m_sides.begin(), m_sides.end(), isSame), m_sides.end());
-  std::sort(m_sides.begin(), m_sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.face, a.low, a.high) < std::tie(b.face, b.low, b.high);
-  });
 }
 
 void BodyMesh::add(const ShapeFaces& shape, const BodyPose& from, const BodyPose& to) {
@@ -54,7 +63,7 @@ void BodyMesh::add(const ShapeFaces& shape, const BodyPose& from, const BodyPose
     m_from.push_back(from.outOf(corner));
     m_to.push_back(to.outOf(corner));
   }
-  findEdges(shape.faces());
+  findEdges(shape);
   m_hasVertex.assign(shape.corners().size(), 0);
   std::size_t side = 0;
   const bool isShell = shape.hulls().size() == 1 && shape.faces().size() <= kMostFacesOfShell;

@@ -32,14 +32,16 @@ class BodyMesh {
     int low;
     int high;
     int face;
+    int before;  // of m_sides, with the same low corner
   };
-  void findEdges(const std::vector<ShapeFaces::Face>& faces);
+  void findEdges(const ShapeFaces& shape);
 
   GuardMesh m_mesh;
   std::vector<BodyPoint> m_from;  // of each node
   std::vector<BodyPoint> m_to;
   std::vector<char> m_hasVertex;
   std::vector<Side> m_sides;
+  std::vector<int> m_lastSide;  // of each corner, as the low one
 };
 
 }  // namespace WETCLOTH_PRECISION

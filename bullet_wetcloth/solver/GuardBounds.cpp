@@ -12,6 +12,9 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
+// Patches that tell whether it pays to try the others.
+constexpr std::size_t kTriedFirst = 8;
+
 constexpr std::size_t kNumbersOfWay = sizeof(GuardNodes::Way) / sizeof(btScalar);
 
 // Between which places a row of nodes after the other starts and ends, and between which vectors those along rows and
@@ -87,6 +90,7 @@ void growTo(std::size_t size, Elements& elements) {
 
 void GuardBounds::clear() {
   m_cloths.clear();
+  m_patchesPay.clear();
   m_parts.clear();
   m_isAnyMesh = false;
   m_end = {};
@@ -98,6 +102,7 @@ void GuardBounds::add(const GuardMesh& mesh, std::size_t firstNode) {
   cloth.firstNode = static_cast<int>(firstNode);
   cloth.nodeCount = static_cast<int>(mesh.firstTileOfNode.size());
   m_cloths.push_back(cloth);
+  m_patchesPay.push_back(0);
   m_parts.add(mesh, cloth.firstNode);
   m_isAnyMesh = m_isAnyMesh || !mesh.isGrid();
   for (int k = 0; k < GuardGrid::kLevels; ++k) {
@@ -134,6 +139,7 @@ void GuardBounds::boundTiles(const GuardNodes& nodes, btScalar near) {
   std::fill(m_partsAreBound.begin(), m_partsAreBound.end(), static_cast<unsigned char>(0));
   for (const Cloth& cloth : m_cloths) {
     for (std::size_t tile = 0; tile < cloth.mesh->tiles.size(); ++tile) findTile(cloth, static_cast<int>(tile));
+    m_patchesPay[indexOf(cloth)] = doPatchesPay(cloth);
   }
 }
 
@@ -147,7 +153,7 @@ void GuardBounds::boundTile(const Cloth& cloth, int tile) {
   m_normalsAreBound[cloth.firstSquare[0] + toSize(tile)] = 0;
   if (mesh.patches.empty()) return;
   for (const int patch : mesh.patchesTouched[toSize(tile)]) {
-    const PatchOf of = {static_cast<std::size_t>(&cloth - m_cloths.data()), patch};
+    const PatchOf of = {indexOf(cloth), patch};
     if (flatnessOf(of) != Flatness::flat) continue;
     flatnessOf(of) = Flatness::wasFlat;
     m_stirred.push_back(of);
@@ -296,6 +302,22 @@ std::size_t GuardBounds::patchOf(const Cloth& cloth, const GuardMesh::TileInPatc
 }
 
 bool GuardBounds::areInAFlatPatch(const Cloth& cloth, int tileA, int tileB) {
+  return m_patchesPay[indexOf(cloth)] && isFirstPatchFlat(cloth, tileA, tileB);
+}
+
+// They do where all are flat. Where half of them are, as in cloth that is worn, they cost more than what they leave
+// out.
+bool GuardBounds::doPatchesPay(const Cloth& cloth) {
+  const GuardMesh& mesh = *cloth.mesh;
+  if (mesh.patches.empty()) return false;
+  const std::size_t every = std::max<std::size_t>(mesh.tiles.size() / kTriedFirst, 1);
+  for (std::size_t tile = 0; tile < mesh.tiles.size(); tile += every) {
+    if (!isFirstPatchFlat(cloth, static_cast<int>(tile), static_cast<int>(tile))) return false;
+  }
+  return true;
+}
+
+bool GuardBounds::isFirstPatchFlat(const Cloth& cloth, int tileA, int tileB) {
   const GuardMesh& mesh = *cloth.mesh;
   const GuardMesh::TileInPatch* const both = mesh.inPatches(tileA, tileB);
   if (!both) return false;

@@ -91,6 +91,7 @@ class GuardBounds {
     std::vector<Flatness> four;  // squares: each with the next row and column
   };
 
+  std::size_t indexOf(const Cloth& cloth) const { return static_cast<std::size_t>(&cloth - m_cloths.data()); }
   Square squareOf(const Cloth& cloth, const GridRectangle& nodes) const;
   GuardBox boxOf(const Cloth& cloth, const int* nodes, int count) const;
   const Square& squareAt(const Cloth& cloth, int level, int row, int column);
@@ -99,6 +100,8 @@ class GuardBounds {
     int patch;
   };
   static std::size_t patchOf(const Cloth& cloth, const GuardMesh::TileInPatch& both);
+  bool doPatchesPay(const Cloth& cloth);
+  bool isFirstPatchFlat(const Cloth& cloth, int tileA, int tileB);
   bool isFlat(const Cloth& cloth, const SheetPatch& patch);
   Flatness& flatnessOf(const PatchOf& of) { return m_patches[m_cloths[of.cloth].firstPatch + toSize(of.patch)]; }
   void findTile(const Cloth& cloth, int tile);
@@ -113,6 +116,7 @@ class GuardBounds {
   bool m_isAnyMesh = false;         // that is no grid
   std::vector<GuardBox> m_normals;  // of tiles
   std::vector<unsigned char> m_normalsAreBound;
+  std::vector<unsigned char> m_patchesPay;  // of each cloth
   std::vector<Flatness> m_patches;
   std::vector<PatchOf> m_stirred;  // patches that were flat
   std::vector<PatchOf> m_lost;

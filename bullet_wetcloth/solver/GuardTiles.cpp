@@ -243,11 +243,21 @@ void GuardTiles::lookAtTiles(std::size_t a, std::size_t b) {
 void GuardTiles::chooseParts(std::size_t a, std::size_t b) {
   const GuardMesh& meshB = *m_bounds.cloths()[m_tiles[b].cloth].mesh;
   if (meshB.isOfBodies && meshB.shellOfTile[toSize(m_tiles[b].index)] >= 0) return choosePartsNotBeyond(a, b);
-  for (int kind = 0; kind < PartBoxes::kKinds; ++kind) {
-    const auto of = static_cast<PartBoxes::Kind>(kind);
-    m_bounds.parts().find(a, of, boxOf(b), m_chosen[0][kind]);
-    m_bounds.parts().find(b, of, boxOf(a), m_chosen[1][kind]);
+  GuardBox aroundA = boxOf(a);
+  GuardBox aroundB = boxOf(b);
+  m_bounds.parts().find(a, PartBoxes::kFaces, aroundB, m_chosen[0][PartBoxes::kFaces]);
+  if (partsAreInFaces(a)) aroundA = m_chosen[0][PartBoxes::kFaces].around();
+  m_bounds.parts().find(b, PartBoxes::kFaces, aroundA, m_chosen[1][PartBoxes::kFaces]);
+  if (partsAreInFaces(b)) aroundB = m_chosen[1][PartBoxes::kFaces].around();
+  for (const PartBoxes::Kind kind : {PartBoxes::kVertices, PartBoxes::kEdges}) {
+    m_bounds.parts().find(a, kind, aroundB, m_chosen[0][kind]);
+    m_bounds.parts().find(b, kind, aroundA, m_chosen[1][kind]);
   }
+}
+
+// Whether each vertex and each edge of a tile is one of a face of it. The last row and column of a grid have no faces.
+bool GuardTiles::partsAreInFaces(std::size_t tile) const {
+  return !m_bounds.cloths()[m_tiles[tile].cloth].mesh->isGrid();
 }
 
 void GuardTiles::choosePartsNotBeyond(std::size_t tile, std::size_t bodies) {
@@ -342,11 +352,11 @@ void GuardTiles::choosePartsOfCells(std::size_t tile) {
 void GuardTiles::meetVerticesAndFaces(std::size_t a, int chosenA, std::size_t b, int chosenB) {
   const Cloth& clothA = m_bounds.cloths()[m_tiles[a].cloth];
   const Cloth& clothB = m_bounds.cloths()[m_tiles[b].cloth];
-  const std::size_t count = PartBoxes::meet(m_chosen[chosenA][PartBoxes::kVertices],
-                                            m_chosen[chosenB][PartBoxes::kFaces], m_areOnlyNew, m_meetings);
-  for (std::size_t k = 0; k < count; ++k) {
-    const int vertex = clothA.firstNode + clothA.mesh->vertices[toSize(m_meetings[k].part)];
-    const int(&face)[3] = clothB.mesh->faces[toSize(m_meetings[k].other)].node;
+  PartBoxes::meetFaces(m_chosen[chosenA][PartBoxes::kVertices], m_chosen[chosenB][PartBoxes::kFaces], m_areOnlyNew,
+                       m_meetings);
+  for (std::size_t k = 0; k < m_meetings.count; ++k) {
+    const int vertex = clothA.firstNode + clothA.mesh->vertices[toSize(m_meetings.parts[k])];
+    const int(&face)[3] = clothB.mesh->faces[toSize(m_meetings.others[k])].node;
     m_pairs->vertexFace.push_back(
         {{vertex, clothB.firstNode + face[0], clothB.firstNode + face[1], clothB.firstNode + face[2]},
          {m_pairOfTiles[0], m_pairOfTiles[1]}});
@@ -356,13 +366,11 @@ void GuardTiles::meetVerticesAndFaces(std::size_t a, int chosenA, std::size_t b,
 void GuardTiles::meetEdges(std::size_t a, std::size_t b) {
   const Cloth& clothA = m_bounds.cloths()[m_tiles[a].cloth];
   const Cloth& clothB = m_bounds.cloths()[m_tiles[b].cloth];
-  const std::size_t count =
-      PartBoxes::meet(m_chosen[0][PartBoxes::kEdges], m_chosen[1][PartBoxes::kEdges], m_areOnlyNew, m_meetings);
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto [part, other] = m_meetings[k];
-    if (a == b && other <= part) continue;
-    const int(&edge)[2] = clothA.mesh->edges[toSize(part)].node;
-    const int(&across)[2] = clothB.mesh->edges[toSize(other)].node;
+  PartBoxes::meetEdges(m_chosen[0][PartBoxes::kEdges], m_chosen[1][PartBoxes::kEdges], a == b, m_areOnlyNew,
+                       m_meetings);
+  for (std::size_t k = 0; k < m_meetings.count; ++k) {
+    const int(&edge)[2] = clothA.mesh->edges[toSize(m_meetings.parts[k])].node;
+    const int(&across)[2] = clothB.mesh->edges[toSize(m_meetings.others[k])].node;
     m_pairs->edgeEdge.push_back({{clothA.firstNode + edge[0], clothA.firstNode + edge[1], clothB.firstNode + across[0],
                                   clothB.firstNode + across[1]},
                                  {m_pairOfTiles[0], m_pairOfTiles[1]}});

@@ -69,6 +69,7 @@ class GuardTiles {
   bool areFlat(const Cloth& cloth, int tileA, int tileB);
   void lookAtTiles(std::size_t a, std::size_t b);
   void chooseParts(std::size_t a, std::size_t b);
+  bool partsAreInFaces(std::size_t tile) const;
   void choosePartsNotBeyond(std::size_t tile, std::size_t bodies);
   void findCellsIn(std::size_t tile, const GuardBox& box, bool newOnly);
   bool isBeyond(std::size_t tile, int cell, std::size_t bodies);
@@ -100,7 +101,7 @@ class GuardTiles {
   using ChosenParts = PartBoxes::ChosenParts;
   ChosenParts m_chosen[2][PartBoxes::kKinds];  // of two tiles those that may meet
   std::vector<int> m_cells;                    // of the first of them
-  std::vector<PartBoxes::Meeting> m_meetings;
+  PartBoxes::Meetings m_meetings;
   Scope m_scope = {};
   GuardCandidates* m_pairs = nullptr;
   int m_pairOfTiles[2] = {0, 0};  // that are looked at

@@ -17,9 +17,20 @@ bool HullCrossing::isBeyond(std::size_t plane, const std::array<BodyPoint, 3>& t
                      [&](const BodyPoint& corner) { return outside(plane, corner) >= 0; });
 }
 
+// The plane that its middle is farthest outside of.
+std::size_t HullCrossing::likelyBeyond(const std::array<BodyPoint, 3>& triangle) const {
+  btVector3 middle(0, 0, 0);
+  for (const BodyPoint& corner : triangle) {
+    for (std::size_t k = 0; k < 3; ++k) middle[static_cast<int>(k)] += static_cast<btScalar>(corner[k] / 3);
+  }
+  return m_hull->sides.farthestFrom(middle);
+}
+
 // What the planes leave of the triangle, one after the other.
 bool HullCrossing::isIn(const std::array<BodyPoint, 3>& triangle) {
   if (m_hull->polygons() == 0 || isBeyond(m_last, triangle)) return false;
+  m_last = likelyBeyond(triangle);
+  if (isBeyond(m_last, triangle)) return false;
   for (std::size_t plane = 0; plane < m_hull->polygons(); ++plane) {
     if (!isBeyond(plane, triangle)) continue;
     m_last = plane;

@@ -25,6 +25,7 @@ class HullCrossing {
   bool isIn(const std::array<BodyPoint, 3>& triangle);
 
  private:
+  std::size_t likelyBeyond(const std::array<BodyPoint, 3>& triangle) const;
   bool isBeyond(std::size_t plane, const std::array<BodyPoint, 3>& triangle) const;
   double outside(std::size_t plane, const BodyPoint& point) const;
 

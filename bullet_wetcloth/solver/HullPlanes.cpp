@@ -59,13 +59,21 @@ struct HullPlanes::Farthest {
   }
 };
 
-ShapeDistance HullPlanes::distanceTo(const btVector3& point, btScalar enough) const {
+ShapeDistance HullPlanes::distanceTo(const btVector3& point, btScalar enough, std::size_t& likely) const {
+  const btScalar before = normalOf(likely).dot(point) - m_blocks[likely / kLanes].offset[likely % kLanes];
+  if (before > enough) return {before, normalOf(likely)};
   btScalar most[kLanes];
   btScalar where[kLanes];
   runOnBestLanes(Farthest{m_blocks, point, enough, most, where});
   const std::size_t best = static_cast<std::size_t>(std::max_element(most, most + kLanes) - most);
-  const Block& block = m_blocks[static_cast<std::size_t>(where[best])];
-  return {most[best], btVector3(block.normal[0][best], block.normal[1][best], block.normal[2][best])};
+  likely = static_cast<std::size_t>(where[best]) * kLanes + best;
+  return {most[best], normalOf(likely)};
+}
+
+btVector3 HullPlanes::normalOf(std::size_t plane) const {
+  const auto& normal = m_blocks[plane / kLanes].normal;
+  const std::size_t lane = plane % kLanes;
+  return btVector3(normal[0][lane], normal[1][lane], normal[2][lane]);
 }
 
 }  // namespace WETCLOTH_PRECISION

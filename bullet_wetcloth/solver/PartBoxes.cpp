@@ -21,6 +21,13 @@ PartBoxes::Bounds boundsOf(const GuardBox& box) {
   return bounds;
 }
 
+GuardBox boxOf(const PartBoxes::Bounds& bounds) {
+  GuardBox box;
+  box.low = load<Quad>(bounds.low);
+  box.high = load<Quad>(bounds.high);
+  return box;
+}
+
 WETCLOTH_INLINE bool overlap(const PartBoxes::Bounds& a, const PartBoxes::Bounds& b) {
   constexpr unsigned kAxes = 7;
   return (bitsOf((load<Quad>(a.low) > load<Quad>(b.high)) | (load<Quad>(b.low) > load<Quad>(a.high))) & kAxes) == 0;
@@ -60,36 +67,69 @@ struct SpreadBox {
   }
 };
 
-// Bits of the parts of a block that have one of these nodes.
-template <class Lanes>
-WETCLOTH_INLINE unsigned sharing(const PartBoxes::Block& block, const int (&nodes)[3]) {
+// Bits of the parts of a block, with so many nodes each, that have one of these.
+template <class Lanes, int nodesOfPart, int count>
+WETCLOTH_INLINE unsigned sharing(const PartBoxes::Block& block, const int (&nodes)[count]) {
   using Numbers = decltype(Lanes() > Lanes());
   unsigned bits = 0;
   if constexpr (kLaneCount<Lanes> != 1 && sizeof(btScalar) == sizeof(int)) {
     for (std::size_t k = 0; k < PartBoxes::kLanes; k += kLaneCount<Lanes>) {
       Numbers areSame = {};
-      for (const auto& of : block.node) {
+      for (int i = 0; i < nodesOfPart; ++i) {
         Numbers number;
-        std::memcpy(&number, of + k, sizeof number);
-        areSame |= (number == nodes[0]) | (number == nodes[1]) | (number == nodes[2]);
+        std::memcpy(&number, block.node[i] + k, sizeof number);
+        for (const int node : nodes) areSame |= number == node;
       }
       bits |= bitsOfLanes<Lanes>(areSame) << k;
     }
   } else {
-    for (const auto& of : block.node) {
+    for (int i = 0; i < nodesOfPart; ++i) {
       for (unsigned k = 0; k < PartBoxes::kLanes; ++k) {
-        bits |= of[k] == nodes[0] || of[k] == nodes[1] || of[k] == nodes[2] ? 1u << k : 0u;
+        for (const int node : nodes) bits |= block.node[i][k] == node ? 1u << k : 0u;
       }
     }
   }
   return bits;
 }
 
+// Of each number of eight bits, which of them are set, in turn.
+struct BitsSet {
+  struct Of {
+    int bit[PartBoxes::kLanes] = {};
+    std::size_t count = 0;
+  };
+  Of of[1u << PartBoxes::kLanes];
+
+  constexpr BitsSet() : of() {
+    for (unsigned bits = 0; bits < 1u << PartBoxes::kLanes; ++bits) {
+      for (unsigned k = 0; k < PartBoxes::kLanes; ++k) {
+        if ((bits >> k & 1) != 0) of[bits].bit[of[bits].count++] = static_cast<int>(k);
+      }
+    }
+  }
+};
+constexpr BitsSet kBitsSet;
+
 int partOf(const GuardMesh::Cell& cell, PartBoxes::Kind kind) {
   return kind == PartBoxes::kVertices ? cell.vertex : kind == PartBoxes::kEdges ? cell.edge : cell.face;
 }
 
 }  // namespace
+
+GuardBox PartBoxes::ChosenParts::around() const {
+  GuardBox box;
+  for (const Chosen& chosen : *this) {
+    const Block& block = *chosen.block;
+    for (unsigned left = chosen.parts; left != 0; left &= left - 1) {
+      const unsigned k = lowestBit(left);
+      const Quad low = {block.low[0][k], block.low[1][k], block.low[2][k], 0};
+      const Quad high = {block.high[0][k], block.high[1][k], block.high[2][k], 0};
+      box.low = lesser(low, box.low);
+      box.high = greater(high, box.high);
+    }
+  }
+  return box;
+}
 
 void PartBoxes::clear() {
   m_tiles.clear();
@@ -166,10 +206,7 @@ GuardBox PartBoxes::bound(std::size_t index) {
   GuardBox all;
   for (std::size_t k = tile.firstBlock[kFaces]; k < tile.firstBlock[kKinds]; ++k) {
     boundBlock<3>(m_blocks[k], tile.firstNode, [&](int part) { return mesh.faces[toSize(part)].node; });
-    GuardBox faces;
-    faces.low = load<Quad>(m_blocks[k].all.low);
-    faces.high = load<Quad>(m_blocks[k].all.high);
-    all.include(faces);
+    all.include(boxOf(m_blocks[k].all));
   }
   m_newTiles.push_back(index);
   return all;
@@ -231,52 +268,74 @@ void PartBoxes::find(std::size_t tile, Kind kind, const GuardBox& box, ChosenPar
   runOnBestLanes(Finder{all, boundsOf(box), chosen.m_blocks.data(), chosen.m_count});
 }
 
+/// Of parts with so many nodes each.
+template <int ownNodes, int otherNodes>
 struct PartBoxes::Meeter {
   const ChosenParts& parts;
   const ChosenParts& others;
+  bool areOfOne;  // tile: each pair once
   bool newOnly;
-  Meeting* meetings;  // room for all
-  std::size_t& count;
+  Meetings& meetings;  // room for all
 
   template <class Lanes>
   WETCLOTH_INLINE void run() const {
-    Meeting* next = meetings;
+    std::size_t count = 0;
     for (const Chosen& own : parts) {
       for (const Chosen& other : others) {
-        if (overlap(own.block->all, other.block->all)) next = meet<Lanes>(own, other, next);
+        if (areOfOne && other.block->first < own.block->first) continue;
+        if (overlap(own.block->all, other.block->all)) count = meet<Lanes>(own, other, count);
       }
     }
-    count = static_cast<std::size_t>(next - meetings);
+    meetings.count = count;
   }
 
  private:
   template <class Lanes>
-  WETCLOTH_INLINE Meeting* meet(const Chosen& own, const Chosen& other, Meeting* next) const {
+  WETCLOTH_INLINE std::size_t meet(const Chosen& own, const Chosen& other, std::size_t count) const {
     const Block& block = *own.block;
     const Block& across = *other.block;
+    const bool areOneBlock = areOfOne && &block == &across;
     unsigned left = SpreadBox<Lanes>(across.all).overlapping(block) & own.parts;
     for (; left != 0; left &= left - 1) {
       const unsigned k = lowestBit(left);
       const bool areAllWanted = !newOnly || (block.isNew >> k & 1) != 0;
-      const unsigned wanted = areAllWanted ? other.parts : other.parts & across.isNew;
+      unsigned wanted = areAllWanted ? other.parts : other.parts & across.isNew;
+      if (areOneBlock) wanted &= ~0u << k;
       unsigned bits = SpreadBox<Lanes>(block, k).overlapping(across) & wanted;
-      if (bits == 0) continue;
-      bits &= ~sharing<Lanes>(across, {block.node[0][k], block.node[1][k], block.node[2][k]});
-      for (; bits != 0; bits &= bits - 1) {
-        *next++ = {block.first + static_cast<int>(k), across.first + static_cast<int>(lowestBit(bits))};
-      }
+      int nodes[ownNodes];
+      for (int i = 0; i < ownNodes; ++i) nodes[i] = block.node[i][k];
+      bits &= ~sharing<Lanes, otherNodes>(across, nodes);
+      // All eight, without asking which: a processor does not foresee how many there are.
+      const BitsSet::Of& set = kBitsSet.of[bits];
+      int next[kLanes];
+      for (int& part : next) part = block.first + static_cast<int>(k);
+      std::memcpy(meetings.parts.data() + count, next, sizeof next);
+      for (std::size_t i = 0; i < kLanes; ++i) next[i] = across.first + set.bit[i];
+      std::memcpy(meetings.others.data() + count, next, sizeof next);
+      count += set.count;
     }
-    return next;
+    return count;
   }
 };
 
-std::size_t PartBoxes::meet(const ChosenParts& parts, const ChosenParts& others, bool newOnly,
-                            std::vector<Meeting>& meetings) {
-  const std::size_t room = parts.size() * others.size() * kLanes * kLanes + 1;
-  if (meetings.size() < room) meetings.resize(room);
-  std::size_t count = 0;
-  runOnBestLanes(Meeter{parts, others, newOnly, meetings.data(), count});
-  return count;
+template <int ownNodes, int otherNodes>
+void PartBoxes::meet(const ChosenParts& parts, const ChosenParts& others, bool areOfOne, bool newOnly,
+                     Meetings& meetings) {
+  const std::size_t room = parts.size() * others.size() * kLanes * kLanes + kLanes;
+  if (meetings.parts.size() < room) {
+    meetings.parts.resize(room);
+    meetings.others.resize(room);
+  }
+  runOnBestLanes(Meeter<ownNodes, otherNodes>{parts, others, areOfOne, newOnly, meetings});
+}
+
+void PartBoxes::meetFaces(const ChosenParts& vertices, const ChosenParts& faces, bool newOnly, Meetings& meetings) {
+  meet<1, 3>(vertices, faces, false, newOnly, meetings);
+}
+
+void PartBoxes::meetEdges(const ChosenParts& edges, const ChosenParts& others, bool areOfOne, bool newOnly,
+                          Meetings& meetings) {
+  meet<2, 2>(edges, others, areOfOne, newOnly, meetings);
 }
 
 }  // namespace WETCLOTH_PRECISION

@@ -36,10 +36,11 @@ class PartBoxes {
     const Block* begin;
     const Block* end;
   };
-  /// Two parts whose boxes overlap.
-  struct Meeting {
-    int part;
-    int other;
+  /// Pairs of parts whose boxes overlap.
+  struct Meetings {
+    std::vector<int> parts;  ///< of each, and numbers that mean nothing after them
+    std::vector<int> others;
+    std::size_t count = 0;
   };
   /// Some of a tile's parts of one kind.
   struct Chosen {
@@ -51,6 +52,8 @@ class PartBoxes {
     void clear() { m_count = 0; }
     bool isEmpty() const { return m_count == 0; }
     std::size_t size() const { return m_count; }
+    /// What holds all parts of the blocks that they are in.
+    GuardBox around() const;
     const Chosen* begin() const { return m_blocks.data(); }
     const Chosen* end() const { return m_blocks.data() + m_count; }
     /// Parts of one block come in turn.
@@ -95,12 +98,13 @@ class PartBoxes {
 
   /// Of a tile's parts of one kind those whose boxes overlap this one.
   void find(std::size_t tile, Kind kind, const GuardBox& box, ChosenParts& chosen) const;
-  /// For each of the first parts in turn those of the others that share no node with it and whose boxes overlap its
-  /// own. Returns how many.
+  /// For each of the vertices in turn those of the faces that do not have it and whose boxes overlap its own.
   /// @param newOnly  pairs of which one is new
-  /// @param meetings  where they are written; it grows where there is no room for all
-  static std::size_t meet(const ChosenParts& parts, const ChosenParts& others, bool newOnly,
-                          std::vector<Meeting>& meetings);
+  static void meetFaces(const ChosenParts& vertices, const ChosenParts& faces, bool newOnly, Meetings& meetings);
+  /// The same for edges that share no node.
+  /// @param areOfOne  both are those of one tile: each pair comes once, with the lower edge first
+  static void meetEdges(const ChosenParts& edges, const ChosenParts& others, bool areOfOne, bool newOnly,
+                        Meetings& meetings);
 
  private:
   struct Tile {
@@ -111,7 +115,12 @@ class PartBoxes {
     unsigned char isBound;
   };
   struct Finder;
+  template <int ownNodes, int otherNodes>
   struct Meeter;
+
+  template <int ownNodes, int otherNodes>
+  static void meet(const ChosenParts& parts, const ChosenParts& others, bool areOfOne, bool newOnly,
+                   Meetings& meetings);
 
   void makeBlocks();
   void boundNode(int node);

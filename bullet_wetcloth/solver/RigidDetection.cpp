@@ -39,7 +39,7 @@ class MeasuredHull {
   MeasuredHull(const HullPlanes& planes, btScalar margin, btScalar reach)
       : m_planes(planes), m_margin(margin), m_enough(kBeyondRounding * (margin + reach)) {}
   ShapeDistance distanceTo(const btVector3& point) const {
-    const ShapeDistance found = m_planes.distanceTo(point, m_enough);
+    const ShapeDistance found = m_planes.distanceTo(point, m_enough, m_likely);
     return {found.distance - m_margin, found.normal};
   }
 
@@ -49,6 +49,7 @@ class MeasuredHull {
   const HullPlanes& m_planes;
   btScalar m_margin;
   btScalar m_enough;
+  mutable std::size_t m_likely = 0;  // plane, by the point before
 };
 
 // Lists contacts of one object whose distance is measured.

@@ -23,14 +23,6 @@ btVector3 middleOfWay(const GuardNodes::Way& way) { return (asVector(way.start) 
 
 }  // namespace
 
-// Of a part's nodes: where they are at the start and at the end, in turns, and how far beyond a plane they have to be.
-struct SupportPlanes::Ways {
-  btVector3 place[8];
-  int count = 0;
-  btScalar wanted = 0;
-  btVector3 middle = btVector3(0, 0, 0);
-};
-
 void SupportPlanes::begin(const GuardNodes& nodes, btScalar near) {
   m_nodes = &nodes;
   m_near = near;
@@ -49,33 +41,36 @@ bool SupportPlanes::areBeyond(const int* nodes, int count, const GuardMesh& mesh
   Shell& shell = m_shells[toSize(number)];
   if (!shell.isFound) find(mesh, mesh.shells[toSize(number)], firstNode, shell);
   if (shell.blocks.empty()) return false;
-  Ways ways;
   btScalar slack = 0;
-  for (int k = 0; k < count; ++k) {
-    const GuardNodes::Way& way = m_nodes->expected[toSize(nodes[k])];
-    ways.place[ways.count++] = asVector(way.start);
-    ways.place[ways.count++] = asVector(way.end);
-    slack = std::max(slack, way.start.at[3]);
-  }
-  ways.wanted = m_near + kAlongAnyAxis * slack;
-  if (isBeyond(shell, shell.last, ways)) return true;
-  for (int k = 0; k < ways.count; ++k) ways.middle += ways.place[k];
-  const std::size_t best = farthest(shell, ways.middle / static_cast<btScalar>(ways.count));
-  if (best == shell.last || !isBeyond(shell, best, ways)) return false;
+  for (int k = 0; k < count; ++k) slack = std::max(slack, m_nodes->expected[toSize(nodes[k])].start.at[3]);
+  const Part part = {nodes, count, m_near + kAlongAnyAxis * slack};
+  if (isBeyond(part, shell, shell.last)) return true;
+  const std::size_t best = farthest(shell, middleOf(part));
+  if (best == shell.last || !isBeyond(part, shell, best)) return false;
   shell.last = best;
   return true;
 }
 
-bool SupportPlanes::isBeyond(const Shell& shell, std::size_t plane, const Ways& ways) {
+bool SupportPlanes::isBeyond(const Part& part, const Shell& shell, std::size_t plane) const {
   const Block& block = shell.blocks[plane / kLanes];
   const std::size_t lane = plane % kLanes;
-  for (int k = 0; k < ways.count; ++k) {
-    const btVector3& place = ways.place[k];
-    const btScalar along =
-        block.normal[0][lane] * place.x() + block.normal[1][lane] * place.y() + block.normal[2][lane] * place.z();
-    if (!(along - block.offset[k % 2][lane] > ways.wanted)) return false;
+  const btVector3 normal(block.normal[0][lane], block.normal[1][lane], block.normal[2][lane]);
+  for (int k = 0; k < part.count; ++k) {
+    const GuardNodes::Way& way = m_nodes->expected[toSize(part.nodes[k])];
+    if (!(normal.dot(asVector(way.start)) - block.offset[0][lane] > part.distance)) return false;
+    if (!(normal.dot(asVector(way.end)) - block.offset[1][lane] > part.distance)) return false;
   }
   return true;
+}
+
+btVector3 SupportPlanes::middleOf(const Part& part) const {
+  btVector3 sum(0, 0, 0);
+  for (int k = 0; k < part.count; ++k) {
+    const GuardNodes::Way& way = m_nodes->expected[toSize(part.nodes[k])];
+    sum += asVector(way.start);
+    sum += asVector(way.end);
+  }
+  return sum / static_cast<btScalar>(2 * part.count);
 }
 
 // Of each lane the block whose plane a point is farthest beyond, and how far [m].
@@ -148,6 +143,35 @@ struct SupportPlanes::Support {
   }
 };
 
+struct SupportPlanes::SameNormal {
+  const std::vector<Block>& blocks;
+  const btVector3& normal;
+  bool& isThere;
+
+  template <class Lanes>
+  WETCLOTH_INLINE void run() const {
+    const Lanes least = everywhere<Lanes>(kOneNormal);
+    const Lanes x = everywhere<Lanes>(normal.x());
+    const Lanes y = everywhere<Lanes>(normal.y());
+    const Lanes z = everywhere<Lanes>(normal.z());
+    unsigned same = 0;
+    for (const Block& block : blocks) {
+      for (std::size_t lane = 0; lane < kLanes; lane += kLaneCount<Lanes>) {
+        const Lanes along = load<Lanes>(block.normal[0] + lane) * x + load<Lanes>(block.normal[1] + lane) * y +
+                            load<Lanes>(block.normal[2] + lane) * z;
+        same |= bitsOfLanes<Lanes>(along > least);
+      }
+    }
+    isThere = same != 0;
+  }
+};
+
+bool SupportPlanes::hasNormal(const Shell& shell, const btVector3& normal) {
+  bool isThere = false;
+  runOnBestLanes(SameNormal{shell.blocks, normal, isThere});
+  return isThere;
+}
+
 void SupportPlanes::find(const GuardMesh& mesh, const GuardMesh::Shell& of, int firstNode, Shell& shell) const {
   const GuardNodes::Way* const ways = &m_nodes->expected[toSize(firstNode)];
   shell.isFound = true;
@@ -159,7 +183,6 @@ void SupportPlanes::find(const GuardMesh& mesh, const GuardMesh::Shell& of, int 
     slack = std::max(slack, ways[node].start.at[3]);
   }
   std::size_t count = 0;
-  btVector3 before(0, 0, 0);
   for (int face = of.face; face < of.endFace; ++face) {
     const int(&nodes)[3] = mesh.faces[toSize(face)].node;
     const btVector3 corner = middleOfWay(ways[nodes[0]]);
@@ -167,8 +190,7 @@ void SupportPlanes::find(const GuardMesh& mesh, const GuardMesh::Shell& of, int 
     const btScalar length = normal.length();
     if (!(length > 0)) continue;
     normal /= normal.dot(corner - centre) < 0 ? -length : length;
-    if (normal.dot(before) > kOneNormal) continue;  // of one polygon
-    before = normal;
+    if (hasNormal(shell, normal)) continue;  // of one polygon
     const std::size_t first = count++ % kLanes;
     if (first == 0) shell.blocks.emplace_back();
     Block& block = shell.blocks.back();

@@ -35,13 +35,21 @@ class SupportPlanes {
     std::vector<Block> blocks;
     std::size_t last = 0;  // plane that something was beyond
   };
-  struct Ways;
+  // A part of a cloth.
+  struct Part {
+    const int* nodes;
+    int count;
+    btScalar distance;  // beyond a plane that it has to be [m]
+  };
+  struct SameNormal;
   struct Farthest;
   struct Support;
 
   void find(const GuardMesh& mesh, const GuardMesh::Shell& of, int firstNode, Shell& shell) const;
   static std::size_t farthest(const Shell& shell, const btVector3& point);
-  static bool isBeyond(const Shell& shell, std::size_t plane, const Ways& ways);
+  static bool hasNormal(const Shell& shell, const btVector3& normal);
+  bool isBeyond(const Part& part, const Shell& shell, std::size_t plane) const;
+  btVector3 middleOf(const Part& part) const;
 
   std::vector<Shell> m_shells;
   const GuardNodes* m_nodes = nullptr;

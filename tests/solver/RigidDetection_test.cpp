@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/solver/RigidDetection.h"
 
-#include "bullet_wetcloth/solver/HullPlanes.h"
 #include "bullet_wetcloth/solver/ShapeDistance.h"
 #include "tests/solver/SolverScene.h"
 #include "tests/support/BodyScene.h"
@@ -11,9 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -62,25 +59,6 @@ TEST(ShapeDistance, OfARoundCylinder) {
   expectDistance(shape, btVector3(0, 6, -4), 5, btVector3(0, btScalar(0.8), btScalar(-0.6)));
   expectDistance(shape, btVector3(btScalar(0.9), 0, 0), -0.1, btVector3(1, 0, 0));
   EXPECT_FALSE(MeasuredShape::isOne(btCylinderShape(btVector3(1, 2, 3))));
-}
-
-// Of a cube as of a box, but for what is before an edge, where it is no farther than the box.
-TEST(HullPlanes, OfACube) {
-  wetcloth::HullPlanes planes;
-  EXPECT_TRUE(planes.isEmpty());
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {-1.0, 1.0}) {
-      std::array<double, 3> normal{0, 0, 0};
-      normal[std::size_t(axis)] = side;
-      planes.add(normal, 1);
-    }
-  }
-  const MeasuredShape box(btBoxShape(btVector3(1, 1, 1)));
-  for (const btVector3& point : {btVector3(3, 0, 0), btVector3(0, btScalar(-0.8), 0), btVector3(0.5, 0.25, -7)}) {
-    EXPECT_NEAR(double(planes.distanceTo(point).distance), double(box.distanceTo(point).distance), 1e-6);
-    EXPECT_LT(double((planes.distanceTo(point).normal - box.distanceTo(point).normal).length()), 1e-6);
-  }
-  EXPECT_NEAR(double(planes.distanceTo(btVector3(4, 5, 0)).distance), 4, 1e-6);  // the box is 5 m away
 }
 
 using ShapeMaker = std::function<std::unique_ptr<btCollisionShape>()>;

@@ -28,11 +28,11 @@ class BoxAndFace {
     for (int k = 0; k < 8; ++k) {
       m_corners.push_back(btVector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1) * btScalar(0.1));
     }
-    for (const auto& side :
-         {std::array<int, 4>{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}}) {
-      mesh.faces.push_back({{side[0], side[1], side[2]}});
-      mesh.faces.push_back({{side[0], side[2], side[3]}});
-    }
+    const std::array<int, 4> sides[] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1},
+                                        {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
+    // The two faces of a side do not come one after the other, as where faces were halved.
+    for (const auto& side : sides) mesh.faces.push_back({{side[0], side[1], side[2]}});
+    for (const auto& side : sides) mesh.faces.push_back({{side[0], side[2], side[3]}});
     mesh.isOfBodies = true;
     mesh.shells = {{0, 8, 0, 12}};
     nodes.expected.resize(11);
