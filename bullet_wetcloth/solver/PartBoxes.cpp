@@ -193,22 +193,22 @@ void PartBoxes::boundNode(int node) {
   box.high = greater(start, end) + around;
 }
 
-GuardBox PartBoxes::bound(std::size_t index) {
-  Tile& tile = m_tiles[index];
-  const GuardMesh& mesh = *tile.mesh;
-  tile.isBound = 1;
-  for (std::size_t k = tile.firstBlock[kVertices]; k < tile.firstBlock[kEdges]; ++k) {
-    boundBlock<1>(m_blocks[k], tile.firstNode, [&](int part) { return &mesh.vertices[toSize(part)]; });
+GuardBox PartBoxes::bound(std::size_t tile) {
+  Tile& of = m_tiles[tile];
+  const GuardMesh& mesh = *of.mesh;
+  of.isBound = 1;
+  for (std::size_t k = of.firstBlock[kVertices]; k < of.firstBlock[kEdges]; ++k) {
+    boundBlock<1>(m_blocks[k], of.firstNode, [&](int part) { return &mesh.vertices[toSize(part)]; });
   }
-  for (std::size_t k = tile.firstBlock[kEdges]; k < tile.firstBlock[kFaces]; ++k) {
-    boundBlock<2>(m_blocks[k], tile.firstNode, [&](int part) { return mesh.edges[toSize(part)].node; });
+  for (std::size_t k = of.firstBlock[kEdges]; k < of.firstBlock[kFaces]; ++k) {
+    boundBlock<2>(m_blocks[k], of.firstNode, [&](int part) { return mesh.edges[toSize(part)].node; });
   }
   GuardBox all;
-  for (std::size_t k = tile.firstBlock[kFaces]; k < tile.firstBlock[kKinds]; ++k) {
-    boundBlock<3>(m_blocks[k], tile.firstNode, [&](int part) { return mesh.faces[toSize(part)].node; });
+  for (std::size_t k = of.firstBlock[kFaces]; k < of.firstBlock[kKinds]; ++k) {
+    boundBlock<3>(m_blocks[k], of.firstNode, [&](int part) { return mesh.faces[toSize(part)].node; });
     all.include(boxOf(m_blocks[k].all));
   }
-  m_newTiles.push_back(index);
+  m_newTiles.push_back(tile);
   return all;
 }
 

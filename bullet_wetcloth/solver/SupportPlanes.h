@@ -20,9 +20,9 @@ class SupportPlanes {
   void forget();
   /// Forgets all planes. The nodes live as long as planes are asked for; parts are near at this distance [m].
   void begin(const GuardNodes& nodes, btScalar near);
-  /// Whether a part with up to four of the nodes is beyond a plane of this shell of a mesh whose nodes begin with
-  /// `firstNode`, and not near it, for all of the expected motion.
-  bool areBeyond(const int* nodes, int count, const GuardMesh& mesh, int shell, int firstNode);
+  /// Whether a part with up to four of the nodes is beyond a plane of the shell with this number of a mesh whose nodes
+  /// begin with `firstNode`, and not near it, for all of the expected motion.
+  bool areBeyond(const int* nodes, int count, const GuardMesh& mesh, int number, int firstNode);
 
  private:
   static constexpr std::size_t kLanes = 8;

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <array>
 #include <cstring>
 #include <limits>
 
@@ -26,6 +26,12 @@ struct Spread {
   }
 };
 
+std::array<unsigned char, sizeof(btScalar)> bytesOf(btScalar number) {
+  std::array<unsigned char, sizeof number> bytes;
+  std::memcpy(bytes.data(), &number, sizeof number);
+  return bytes;
+}
+
 // Bit for bit, also what arithmetic would change: the sign of nothing, what is no number.
 TEST(Lanes, ANumberIsTheSameInEachLane) {
   using Limits = std::numeric_limits<btScalar>;
@@ -35,7 +41,7 @@ TEST(Lanes, ANumberIsTheSameInEachLane) {
                                   Limits::denorm_min(), Limits::quiet_NaN()}) {
       btScalar numbers[8] = {};
       wetcloth::runOnBestLanes(Spread{number, numbers});
-      for (const btScalar& lane : numbers) EXPECT_EQ(std::memcmp(&lane, &number, sizeof number), 0) << number;
+      for (const btScalar lane : numbers) EXPECT_EQ(bytesOf(lane), bytesOf(number)) << number;
     }
   }
   wetcloth::forceInstructionSet(InstructionSet::avx2);

@@ -28,7 +28,7 @@ using Pairs = std::vector<std::pair<int, int>>;
 
 // A crumpled sheet of shuffled triangles. Its nodes are on their ways in all directions.
 class CrumpledSheet : public testing::TestWithParam<InstructionSet> {
- protected:
+ public:
   CrumpledSheet() {
     wetcloth::forceInstructionSet(GetParam());
     std::mt19937 random(11);
@@ -51,6 +51,7 @@ class CrumpledSheet : public testing::TestWithParam<InstructionSet> {
   }
   ~CrumpledSheet() override { wetcloth::forceInstructionSet(InstructionSet::avx2); }
 
+ protected:
   std::vector<int> nodesOf(PartBoxes::Kind kind, int part) const {
     const auto k = std::size_t(part);
     if (kind == PartBoxes::kVertices) return {m_mesh.vertices[k]};
