@@ -51,7 +51,8 @@ HardCase struckBy(double flow, double speed, int mostDrops, std::string name, st
 }  // namespace
 
 std::vector<HardCase> dropCases() {
-  return {struckBy(0.1, 20, 2000, "drops_20_m_s", "0.1 kg/s of drops strike a hanging cloth at 20 m/s")};
+  return {struckBy(0.1, 20, 2000, "drops_20_m_s", "0.1 kg/s of drops strike a hanging cloth at 20 m/s"),
+          struckBy(1, 10, 50, "drops_merged", "1 kg/s of drops at 10 m/s, and no more than 50 at a time")};
 }
 
 }  // namespace stability
