@@ -72,8 +72,9 @@ TEST_P(SwellingMotion, AFreeStripChangesItsLengthAndComesBack) {
 
 // Pinned at both ends a strip that shrinks cannot, and is taut: let go, it moves to the other end.
 TEST_P(SwellingMotion, AStripThatIsPinnedAtBothEndsBecomesTaut) {
-  const auto [kind, heldBy] = GetParam();
-  const auto displacement = [kind = kind, heldBy = heldBy](double strain) {
+  const WorldKind kind = std::get<0>(GetParam());
+  const HeldBy heldBy = std::get<1>(GetParam());
+  const auto displacement = [&](double strain) {
     wetcloth::ClothPatch patch = strip();
     patch.pinnedEdges = {wetcloth::ClothPatch::Edge::left, wetcloth::ClothPatch::Edge::right};
     ClothScene scene(kind, kNoGravity, patch);
