@@ -281,7 +281,8 @@ btVector3 WetClothWorld::gravityOf(const btSoftBody& body) const {
 
 const btAlignedObjectArray<btSoftBody*>& WetClothWorld::softBodies() const {
   static const btAlignedObjectArray<btSoftBody*> none;
-  return m_substepHook ? *softBodiesOf(m_world) : none;
+  const btAlignedObjectArray<btSoftBody*>* const bodies = m_substepHook ? softBodiesOf(m_world) : nullptr;
+  return bodies ? *bodies : none;
 }
 
 bool WetClothWorld::isInWorld(const btSoftBody& body) const {

@@ -58,7 +58,7 @@ std::string whyNoRigidContacts(const btSoftBody& body, bool deformable) {
 }
 
 std::string whyNoNodeContacts(const btSoftBody& body, bool deformable) {
-  const std::string why = whyNoRigidContacts(body, deformable);
+  std::string why = whyNoRigidContacts(body, deformable);
   if (!why.empty() || !deformable || (body.m_cfg.collisions & Flags::SDF_RDN)) return why;
   return "m_cfg.collisions has not fCollision::SDF_RDN, without which the deformable world lists contacts of "
          "triangles, "

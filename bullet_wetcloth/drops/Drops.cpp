@@ -48,7 +48,7 @@ const Drops::Parameters& checked(const Drops::Parameters& parameters) {
 Drops::Drops(WetClothWorld& world, Parameters parameters)
     : WorldPart((checked(parameters), world)), m_state(std::make_unique<State>(parameters)) {
   setParameters(std::move(parameters));
-  for (WetCloth& cloth : world.cloths()) follow(cloth);
+  for (WetCloth& cloth : world.cloths()) Drops::follow(cloth);
 }
 
 Drops::Drops(WetClothWorld& world) : Drops(world, Parameters()) {}
