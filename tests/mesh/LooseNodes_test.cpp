@@ -155,6 +155,8 @@ TEST_IN_EVERY_WORLD(LooseNodesInAWorld, MoveAsOnBulletsTreeWhereNothingTouchesTh
   Tree tree;
   tree.look(ours->m_ndbvt.m_root);
   EXPECT_EQ(static_cast<int>(tree.leaves.size()), ours->m_nodes.size());
+  ourWorld.remove(*ours);
+  bulletsWorld.remove(*bullets);
 }
 
 TEST(LooseNodesState, GoesOnAfterARestoreAsWithoutOne) {
