@@ -57,9 +57,15 @@ int unnamedFile() {
   return file;
 }
 
+/// POSIX leaves to a system whether posix_spawn itself says that there is no such program, or the child ends with
+/// this status: QEMU's does.
+constexpr int statusWithoutProgram = 127;
+
+std::string noProgram(const std::string& name) { return "there is no program " + name; }
+
 }  // namespace
 
-ChildProgram::ChildProgram(const std::vector<std::string>& words) : m_errors(unnamedFile()) {
+ChildProgram::ChildProgram(const std::vector<std::string>& words) : m_name(words.front()), m_errors(unnamedFile()) {
   std::array<int, 2> pipe{};
   if (::pipe(pipe.data()) != 0) throw std::runtime_error(std::strerror(errno));
   for (const int end : pipe) fcntl(end, F_SETFD, FD_CLOEXEC);  // the child must not hold its own input open
@@ -78,8 +84,8 @@ ChildProgram::ChildProgram(const std::vector<std::string>& words) : m_errors(unn
   if (failed == 0) return;
   close(m_input);
   if (m_errors >= 0) close(m_errors);
-  if (failed == ENOENT) throw Unavailable("there is no program " + words.front());
-  throw std::runtime_error(words.front() + " cannot be started: " + std::strerror(failed));
+  if (failed == ENOENT) throw Unavailable(noProgram(m_name));
+  throw std::runtime_error(m_name + " cannot be started: " + std::strerror(failed));
 }
 
 ChildProgram::~ChildProgram() {
@@ -109,6 +115,7 @@ bool ChildProgram::finish() {
   while (waitpid(m_process, &status, 0) < 0 && errno == EINTR) {
   }
   m_process = -1;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == statusWithoutProgram) throw Unavailable(noProgram(m_name));
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
