@@ -68,8 +68,7 @@ std::string contentOf(const std::string& file) {
   const std::size_t end = file.find('\n');
   if (file.rfind(mark, 0) != 0 || end == std::string::npos) throw std::invalid_argument("is no checkpoint of a run");
   const std::string content = file.substr(end + 1);
-  const std::string wanted = mark + hashOf(content) + " " + std::to_string(content.size());
-  if (file.substr(0, end) != wanted) throw std::invalid_argument("is damaged: it was cut off or changed");
+  if (file != checkpointFile(content)) throw std::invalid_argument("is damaged: it was cut off or changed");
   return content;
 }
 
@@ -85,17 +84,20 @@ nlohmann::ordered_json runIdentity(const Scene& scene, int steps) {
           {"scene", hashOf(scene)}};
 }
 
+std::string checkpointFile(const std::string& content) {
+  return mark + hashOf(content) + " " + std::to_string(content.size()) + "\n" + content;
+}
+
 void requireCheckpointPlace(const std::string& path) {
   const StagedOutput probe(optionFor("--checkpoint", path), path, StagedOutput::Kind::file);
 }
 
 void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint) {
   const nlohmann::ordered_json header = {{"run", checkpoint.run}, {"progress", checkpoint.progress}};
-  const std::string content = header.dump() + "\n" + checkpoint.state;
   const std::string option = optionFor("--checkpoint", path);
   try {
     StagedOutput output(option, path, StagedOutput::Kind::file);
-    pictures::writeFile(output.path(), mark + hashOf(content) + " " + std::to_string(content.size()) + "\n" + content);
+    pictures::writeFile(output.path(), checkpointFile(header.dump() + "\n" + checkpoint.state));
     output.commit();
   } catch (const RunError&) {
     throw;

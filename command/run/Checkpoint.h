@@ -20,6 +20,8 @@ struct Checkpoint {
 /// @param steps  of the whole run
 nlohmann::ordered_json runIdentity(const Scene& scene, int steps);
 
+/// What a checkpoint's file holds, of what comes after its first line: its hash is right.
+std::string checkpointFile(const std::string& content);
 /// Throws InputError when no file can be written there.
 void requireCheckpointPlace(const std::string& path);
 /// Writes beside the file and then puts that in its place, so that whenever the program is killed a whole checkpoint is

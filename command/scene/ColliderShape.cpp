@@ -18,22 +18,19 @@ constexpr double planeHalfExtent = 50;
 /// Bullet puts it round hulls and triangles; its own default is 4 cm.
 constexpr double roundMargin = 0.001;
 
+/// Filled where it stays: a copy would point to the numbers of the first one.
 struct MeshStorage {
+  MeshStorage(const TriangleMesh& mesh, const btVector3& middle) {
+    const auto corner = [&](int i) -> btVector3 { return mesh.vertices[static_cast<std::size_t>(i)] - middle; };
+    for (const auto& [a, b, c] : mesh.triangles) triangles.addTriangle(corner(a), corner(b), corner(c));
+  }
   btTriangleMesh triangles;
 };
 /// A mesh and the numbers that Bullet only points to.
 class OwnedMeshShape : private MeshStorage, public btBvhTriangleMeshShape {
  public:
   OwnedMeshShape(const TriangleMesh& mesh, const btVector3& middle)
-      : MeshStorage(filled(mesh, middle)), btBvhTriangleMeshShape(&this->triangles, true) {}
-
- private:
-  static MeshStorage filled(const TriangleMesh& mesh, const btVector3& middle) {
-    MeshStorage storage;
-    const auto corner = [&](int i) -> btVector3 { return mesh.vertices[static_cast<std::size_t>(i)] - middle; };
-    for (const auto& [a, b, c] : mesh.triangles) storage.triangles.addTriangle(corner(a), corner(b), corner(c));
-    return storage;
-  }
+      : MeshStorage(mesh, middle), btBvhTriangleMeshShape(&this->triangles, true) {}
 };
 
 /// Takes Bullet's axis y to a line.

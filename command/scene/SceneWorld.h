@@ -77,7 +77,7 @@ class SceneWorld {
   double sagOf(std::size_t cloth) const;
   void addEffects(std::size_t index, wetcloth::WetCloth& wet);
   void addWater(const WaterScene& water);
-  void addDrops(const DropsScene& drops);
+  void addDrops(const DropsScene& scene);
   void addCollider(const Collider& collider);
   void moveColliders(double time);
   void placeColliders();

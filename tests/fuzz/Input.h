@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -25,6 +26,29 @@ class Input {
 
  private:
   int m_descriptor;
+};
+
+/// The same by a name of this ending, for a reader that goes by it.
+class NamedInput {
+ public:
+  NamedInput(const std::string& bytes, const std::string& ending)
+      : m_bytes(bytes),
+        m_path(std::filesystem::temp_directory_path() / ("wetcloth-fuzz-" + std::to_string(getpid()) + ending)) {
+    std::filesystem::remove(m_path);
+    std::filesystem::create_symlink(m_bytes.path(), m_path);
+  }
+  ~NamedInput() {
+    std::error_code ignored;
+    std::filesystem::remove(m_path, ignored);
+  }
+  NamedInput(const NamedInput&) = delete;
+  NamedInput& operator=(const NamedInput&) = delete;
+
+  std::string path() const { return m_path.string(); }
+
+ private:
+  Input m_bytes;
+  std::filesystem::path m_path;
 };
 
 /// A reader takes its input or refuses it, with one line that says why; everything else is a fault.

@@ -14,10 +14,12 @@
 namespace fuzz {
 
 /// Nine nodes that hang over a plane and a sphere on which a dumbbell lies, with effects of every kind of state, after
-/// some steps.
+/// some steps; moved by Bullet, or by ClothSolver with a guard.
 class SmallWorld {
  public:
-  SmallWorld() {
+  enum class MovedBy { bullet, guardedSolver };
+
+  explicit SmallWorld(MovedBy mover) : m_mover(mover) {
     m_wet = std::make_unique<wetcloth::WetClothWorld>(m_scene.world());
     wetcloth::WetCloth& cloth = m_wet->add(m_scene.body());
     cloth.add<wetcloth::Absorption>();
@@ -59,6 +61,12 @@ class SmallWorld {
   }
 
  private:
+  static wetcloth::ClothSolver::Parameters guarded() {
+    wetcloth::ClothSolver::Parameters parameters;
+    parameters.guard.emplace();
+    parameters.guard->bodies = true;
+    return parameters;
+  }
   static wetcloth::ClothPatch patch() {
     wetcloth::ClothPatch patch = wetcloth_test::squarePatch(3);
     patch.pinnedEdges = {wetcloth::ClothPatch::Edge::top};
@@ -72,7 +80,11 @@ class SmallWorld {
     return shape;
   }
 
-  wetcloth_test::BodyScene m_scene{wetcloth_test::WorldKind::softRigid, patch()};
+  MovedBy m_mover;
+  wetcloth::ClothSolver m_solver{guarded()};
+  wetcloth_test::BodyScene m_scene{wetcloth_test::WorldKind::softRigid,
+                                   [](btSoftBodyWorldInfo& info) { return patch().build(info); },
+                                   wetcloth_test::kEarthGravity, m_mover == MovedBy::bullet ? nullptr : &m_solver};
   wetcloth_test::RigidBody m_sphere{m_scene.bullet(), std::make_unique<btSphereShape>(btScalar(0.3)), 0,
                                     btVector3(btScalar(0.5), btScalar(-0.2), btScalar(0.5))};
   wetcloth_test::RigidBody m_ground{m_scene.bullet(),
