@@ -21,8 +21,8 @@ class ChildProgram {
 
   /// False when it reads no more.
   bool write(const std::vector<std::uint8_t>& bytes);
-  /// Tells it that there is no more, and waits for its end. Returns whether it succeeded. Throws Unavailable when there never
-  /// was such a program.
+  /// Tells it that there is no more, and waits for its end. Returns whether it succeeded. Throws Unavailable when there
+  /// never was such a program.
   bool finish();
   /// The last line that it wrote to standard error; after finish().
   std::string complaint() const;
