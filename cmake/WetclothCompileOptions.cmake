@@ -80,5 +80,12 @@ function(wetcloth_compile_options target)
     target_compile_options(${target} PRIVATE ${sanitize})
     # Static libraries do not link; whatever links one needs the sanitizer's runtime too.
     target_link_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=${WETCLOTH_SANITIZE}>)
+    get_target_property(type ${target} TYPE)
+    if(type STREQUAL "EXECUTABLE" AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
+      target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/cmake/SanitizedProgram.cpp")
+      set_source_files_properties("${PROJECT_SOURCE_DIR}/cmake/SanitizedProgram.cpp"
+                                  PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
+      target_link_options(${target} PRIVATE -Wl,--export-dynamic-symbol=dlclose)
+    endif()
   endif()
 endfunction()

@@ -97,13 +97,13 @@ class Wearer {
   }
   void afterStep(CaseMeter& meter) const {
     double deepest = 0;
-    for (std::size_t i = 0; i < m_limbs.size(); ++i) {
-      const btTransform inverse = m_limbs[i].place(m_scene.time()).inverse();
-      const btScalar half = btScalar(m_limbs[i].length / 2);
+    for (const Limb& limb : m_limbs) {
+      const btTransform inverse = limb.place(m_scene.time()).inverse();
+      const btScalar half = btScalar(limb.length / 2);
       for (int k = 0; k < m_cloth.m_nodes.size(); ++k) {
         btVector3 p = inverse * m_cloth.m_nodes[k].m_x;
         p.setY(p.y() - std::clamp(p.y(), -half, half));
-        deepest = std::max(deepest, 1 - static_cast<double>(p.length()) / m_limbs[i].radius);
+        deepest = std::max(deepest, 1 - static_cast<double>(p.length()) / limb.radius);
       }
     }
     // The guard has a polyhedron of 42 corners for a ball, whose faces are up to 8 % of the radius inside.
