@@ -63,6 +63,12 @@ void requireSameRun(const std::string& path, const nlohmann::ordered_json& found
   }
 }
 
+// What follows may be counted by it.
+void requireStepOf(const nlohmann::ordered_json& run, const nlohmann::ordered_json& steps) {
+  if (steps.is_number_integer() && steps >= 0 && steps <= run.at("steps")) return;
+  throw std::invalid_argument("is after " + steps.dump() + " of " + run.at("steps").dump() + " steps");
+}
+
 // The bytes after the first line. Throws std::invalid_argument.
 std::string contentOf(const std::string& file) {
   const std::size_t end = file.find('\n');
@@ -114,6 +120,7 @@ Checkpoint readCheckpoint(const std::string& path, const nlohmann::ordered_json&
     const auto header = nlohmann::ordered_json::parse(content.substr(0, end));
     Checkpoint checkpoint = {header.at("run"), header.at("progress"), content.substr(end + 1)};
     requireSameRun(path, checkpoint.run, run);
+    requireStepOf(run, checkpoint.progress.at("steps"));
     return checkpoint;
   } catch (const nlohmann::json::exception&) {
     reject(path, "is no checkpoint of this version of wetcloth");

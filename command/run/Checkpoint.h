@@ -12,7 +12,7 @@ namespace command {
 /// A run that was left before its end, in a file: whose run it is, how far it is, and the state of its world.
 struct Checkpoint {
   nlohmann::ordered_json run;       ///< what must be the same to go on: scene, precision, quality, number of steps
-  nlohmann::ordered_json progress;  ///< of the run
+  nlohmann::ordered_json progress;  ///< of the run; "steps" is how many were made
   std::string state;                ///< of the world, as SceneWorld::save() writes it
 };
 

@@ -28,12 +28,10 @@ void DripRecord::note(const SceneWorld& world) {
   ++m_noted;
 }
 
-nlohmann::ordered_json DripRecord::progress() const {
-  return {{"noted", m_noted}, {"mass_kg", m_mass}, {"kg_by_tenth", m_massByTenth}};
-}
+nlohmann::ordered_json DripRecord::progress() const { return {{"mass_kg", m_mass}, {"kg_by_tenth", m_massByTenth}}; }
 
-void DripRecord::goOnFrom(const nlohmann::ordered_json& progress) {
-  m_noted = progress.at("noted").get<int>();
+void DripRecord::goOnFrom(const nlohmann::ordered_json& progress, int stepsMade) {
+  m_noted = stepsMade;
   m_mass = progress.at("mass_kg").get<double>();
   m_massByTenth = progress.at("kg_by_tenth").get<std::array<double, 10>>();
 }

@@ -21,7 +21,8 @@ class DripRecord {
 
   /// What was noted so far, and to go on from that.
   nlohmann::ordered_json progress() const;
-  void goOnFrom(const nlohmann::ordered_json& progress);
+  /// @param stepsMade  of the run, at most all of them
+  void goOnFrom(const nlohmann::ordered_json& progress, int stepsMade);
 
   /// Whether a cloth has the effect.
   bool isOn() const { return m_isOn; }

@@ -102,7 +102,7 @@ class Run {
   void restore(const Checkpoint& checkpoint) {
     const nlohmann::ordered_json& progress = checkpoint.progress;
     m_steps = progress.at("steps").get<int>();
-    m_drips.goOnFrom(progress.at("drips"));
+    m_drips.goOnFrom(progress.at("drips"), m_steps);
     std::istringstream state(checkpoint.state);
     m_wet.restore(state, m_steps);
     if (m_plain) m_plain->continueFrom(m_wet);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // `wetcloth run --checkpoint` and `--resume`: a run that is cut short and goes on ends as if nothing had been.
 
+#include "command/run/Checkpoint.h"
 #include "tests/command/Command.h"
 
 #include <gtest/gtest.h>
@@ -121,6 +122,22 @@ TEST_F(Checkpoint, ThatIsDamagedOrNoneIsRefused) {
   expectRefused("", "empty");
   const std::string missing = m_directory.path("missing");
   expectRefusal(runWetcloth({"run", scene, "--resume", missing}), {"--resume", missing, "no such file"});
+}
+
+// What a file says of steps counts what is written in memory afterwards.
+TEST_F(Checkpoint, OfStepsThatTheRunDoesNotHaveIsRefused) {
+  const std::string scene = m_directory.write("scene.json", smallScene().dump());
+  runScene(scene, {"--checkpoint", file(), "--every", "2"});
+  const std::string whole = readBytes(file());
+  const std::string content = whole.substr(whole.find('\n') + 1);
+  const std::string state = content.substr(content.find('\n'));
+  for (const char* const steps : {"-1", "7", "2.5", "1e300", "4294967300", "\"4\"", "null"}) {
+    Json header = Json::parse(content.substr(0, content.find('\n')));
+    ASSERT_EQ(header.at("run").at("steps"), 6);
+    header.at("progress").at("steps") = Json::parse(steps);
+    const std::string path = m_directory.write("changed", command::checkpointFile(header.dump() + state));
+    expectRefusal(runWetcloth({"run", scene, "--resume", path}), {"--resume", path, "of 6 steps"});
+  }
 }
 
 TEST_F(Checkpoint, OptionsAreChecked) {
