@@ -12,6 +12,6 @@ namespace wetcloth_python {
 nlohmann::json toJson(const pybind11::handle& object);
 
 /// The other way round.
-pybind11::object toPython(const nlohmann::json& json);
+pybind11::object toPython(const nlohmann::json& value);
 
 }  // namespace wetcloth_python

@@ -182,7 +182,7 @@ PythonCloth clothNamed(const std::shared_ptr<PythonScene>& scene, const std::str
 }
 
 /// Errors are those of the package, whichever module raises them.
-void translate(std::exception_ptr thrown) {
+void translate(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param): pybind11 wants it
   const auto raise = [](const char* name, const std::exception& error) {
     PyErr_SetString(py::module_::import("wetcloth.errors").attr(name).ptr(), error.what());
   };

@@ -73,7 +73,7 @@ void requireStepOf(const nlohmann::ordered_json& run, const nlohmann::ordered_js
 std::string contentOf(const std::string& file) {
   const std::size_t end = file.find('\n');
   if (file.rfind(mark, 0) != 0 || end == std::string::npos) throw std::invalid_argument("is no checkpoint of a run");
-  const std::string content = file.substr(end + 1);
+  std::string content = file.substr(end + 1);
   if (file != checkpointFile(content)) throw std::invalid_argument("is damaged: it was cut off or changed");
   return content;
 }
