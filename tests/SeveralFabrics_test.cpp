@@ -203,7 +203,7 @@ TEST(SeveralFabrics, LookEachAsItsOwn) {
   Sewn sewn(WorldKind::softRigid, fabrics);
   for (const double saturation : {0.0, 0.6}) {
     sewn.cloth.setSaturation(saturation);
-    std::vector<float> vertices(4 * 36);
+    std::vector<float> vertices(std::size_t(4) * 36);
     wetcloth::fillVertexBuffer(sewn.cloth, {vertices.data(), 36, {}, {}, {0, 4}, {3, 4}});
     for (int i = 0; i < 36; ++i) {
       const Fabric& fabric = fabrics[i % 6 < 2 ? 0 : 1];
@@ -213,7 +213,7 @@ TEST(SeveralFabrics, LookEachAsItsOwn) {
       // setSaturation() rounds the water, and a float has 24 bits.
       EXPECT_NEAR(sewn.cloth.colour(i).r, colour.r, kSums);
       EXPECT_NEAR(sewn.cloth.roughness(i), roughness, kSums);
-      const float* const vertex = vertices.data() + 4 * i;
+      const float* const vertex = &vertices[std::size_t(4) * std::size_t(i)];
       EXPECT_NEAR(double(vertex[0]), colour.r, 1e-6) << i;
       EXPECT_NEAR(double(vertex[2]), colour.b, 1e-6) << i;
       EXPECT_NEAR(double(vertex[3]), roughness, 1e-6) << i;
@@ -325,7 +325,7 @@ TEST(SeveralFabrics, BadOnesAreRefusedByName) {
   BodyScene scene(WorldKind::softRigid, squarePatch(3));
   wetcloth::WetClothWorld wet(scene.world());
   const auto refusal = [&](std::vector<Fabric> fabrics, std::vector<int> fabricOfNode) {
-    const std::string message = rejection([&] { wet.add(scene.body(), std::move(fabrics), std::move(fabricOfNode)); });
+    std::string message = rejection([&] { wet.add(scene.body(), std::move(fabrics), std::move(fabricOfNode)); });
     EXPECT_TRUE(wet.cloths().empty());
     return message;
   };
