@@ -18,22 +18,42 @@ namespace {
 constexpr std::size_t mostFrames = 1000000;
 constexpr double mostMetres = 1e6;
 
-[[noreturn]] void rejectJoint(const aiString& name, unsigned frame, const char* what) {
-  throw std::invalid_argument("joint \"" + std::string(name.C_Str()) + "\", frame " + std::to_string(frame) + ": " +
-                              what);
+[[noreturn]] void rejectJoint(const aiString& name, const std::string& what) {
+  throw std::invalid_argument("joint \"" + std::string(name.C_Str()) + "\"" + what);
 }
 
-void requireFinite(const aiNodeAnim& channel) {
-  for (unsigned k = 0; k < channel.mNumPositionKeys; ++k) {
-    const aiVector3D& p = channel.mPositionKeys[k].mValue;
-    const bool isSound = std::fabs(p.x) < mostMetres && std::fabs(p.y) < mostMetres && std::fabs(p.z) < mostMetres;
-    if (!isSound) rejectJoint(channel.mNodeName, k, "its place must be a finite number");
+bool isSound(double metres) { return std::fabs(metres) < mostMetres; }  // not where it is no number
+bool isSound(const aiVector3D& p) { return isSound(p.x) && isSound(p.y) && isSound(p.z); }
+bool isSound(const btVector3& p) { return isSound(p.x()) && isSound(p.y()) && isSound(p.z()); }
+bool isSound(const btTransform& place) {
+  const btMatrix3x3& turn = place.getBasis();
+  return isSound(place.getOrigin()) && isSound(turn[0]) && isSound(turn[1]) && isSound(turn[2]);
+}
+
+template <class Key, class IsSound>
+void requireSound(const aiString& joint, const Key* keys, unsigned count, const char* what,
+                  const IsSound& valueIsSound) {
+  for (unsigned k = 0; k < count; ++k) {
+    const std::string frame = ", frame " + std::to_string(k) + ": its ";
+    if (!std::isfinite(keys[k].mTime)) rejectJoint(joint, frame + "time must be a finite number");
+    if (!valueIsSound(keys[k].mValue)) rejectJoint(joint, frame + what + " must be a finite number");
   }
-  for (unsigned k = 0; k < channel.mNumRotationKeys; ++k) {
-    const aiQuaternion& q = channel.mRotationKeys[k].mValue;
-    const bool isSound = std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z) && std::isfinite(q.w);
-    if (!isSound) rejectJoint(channel.mNodeName, k, "its turn must be a finite number");
-  }
+}
+
+void requireSound(const aiNodeAnim& channel) {
+  requireSound(channel.mNodeName, channel.mPositionKeys, channel.mNumPositionKeys, "place",
+               [](const aiVector3D& p) { return isSound(p); });
+  requireSound(channel.mNodeName, channel.mRotationKeys, channel.mNumRotationKeys, "turn", [](const aiQuaternion& q) {
+    return std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z) && std::isfinite(q.w);
+  });
+}
+
+/// 0 is what assimp says of a file that names none.
+double ticksPerSecond(const aiAnimation& animation) {
+  const double rate = animation.mTicksPerSecond;
+  if (rate == 0) return 25;
+  if (!(rate > 0 && std::isfinite(rate))) throw std::invalid_argument("the time of a frame must be a positive number");
+  return rate;
 }
 
 /// What keys tell at this time, between two of them in between.
@@ -63,7 +83,7 @@ class SkeletonReader {
     if (m_scene.mNumAnimations == 0) throw std::invalid_argument("has no motion: no animation is in it");
     const aiAnimation& animation = *m_scene.mAnimations[0];
     const std::set<double> ticks = ticksOf(animation);
-    const double perSecond = animation.mTicksPerSecond > 0 ? animation.mTicksPerSecond : 25;
+    const double perSecond = ticksPerSecond(animation);
     for (const double tick : ticks) m_motion.times.push_back((tick - *ticks.begin()) / perSecond);
     for (const double tick : ticks) take(*m_scene.mRootNode, outermost(), tick);
     addSkin();
@@ -75,7 +95,7 @@ class SkeletonReader {
     std::set<double> ticks;
     for (unsigned c = 0; c < animation.mNumChannels; ++c) {
       const aiNodeAnim& channel = *animation.mChannels[c];
-      requireFinite(channel);
+      requireSound(channel);
       m_channels[channel.mNodeName.C_Str()] = &channel;
       for (unsigned k = 0; k < channel.mNumRotationKeys; ++k) ticks.insert(channel.mRotationKeys[k].mTime);
       for (unsigned k = 0; k < channel.mNumPositionKeys; ++k) ticks.insert(channel.mPositionKeys[k].mTime);
@@ -102,6 +122,7 @@ class SkeletonReader {
     if (found != m_channels.end()) local = placeAt(*found->second, local, tick);
     local.setOrigin(local.getOrigin() * btScalar(m_placement.scale));
     const btTransform place = parent * local;
+    if (!isSound(place)) rejectJoint(node.mName, ": its place must be a finite number");
     SkeletonMotion::Joint& joint = jointOf(node);
     joint.places.push_back(place);
     for (unsigned i = 0; i < node.mNumChildren; ++i) take(*node.mChildren[i], place, tick);
@@ -142,6 +163,7 @@ class SkeletonReader {
     joint.name = name;
     for (unsigned i = 0; i < node.mNumChildren; ++i) {
       joint.ends.push_back(placeAtRest(*node.mChildren[i]).getOrigin() * btScalar(m_placement.scale));
+      if (!isSound(joint.ends.back())) rejectJoint(node.mName, ": the end of its bone must be a finite number");
     }
     m_byName.emplace(name, m_motion.joints.size());
     m_motion.joints.push_back(std::move(joint));
@@ -156,7 +178,9 @@ class SkeletonReader {
       for (unsigned b = 0; b < mesh.mNumBones; ++b) {
         for (unsigned w = 0; w < mesh.mBones[b]->mNumWeights; ++w) {
           const aiVertexWeight& weight = mesh.mBones[b]->mWeights[w];
-          auto& most = holder.at(weight.mVertexId);
+          if (weight.mVertexId >= holder.size())
+            rejectJoint(mesh.mBones[b]->mName, " holds a vertex that is not there");
+          auto& most = holder[weight.mVertexId];
           if (weight.mWeight > most.first) most = {weight.mWeight, mesh.mBones[b]};
         }
       }
@@ -164,8 +188,10 @@ class SkeletonReader {
         if (holder[v].second == nullptr) continue;
         const auto joint = m_byName.find(holder[v].second->mName.C_Str());
         if (joint == m_byName.end()) continue;
-        const btVector3 seen = plain(holder[v].second->mOffsetMatrix * mesh.mVertices[v]);
-        m_motion.joints[joint->second].skin.push_back(seen * btScalar(m_placement.scale));
+        const aiVector3D place = holder[v].second->mOffsetMatrix * mesh.mVertices[v];
+        const btVector3 seen = plain(place) * btScalar(m_placement.scale);
+        if (!isSound(seen)) rejectJoint(holder[v].second->mName, ": its skin must be finite numbers");
+        m_motion.joints[joint->second].skin.push_back(seen);
       }
     }
   }

@@ -170,6 +170,16 @@ TEST(Figure, BadOnesAreNamed) {
   std::string infinite = whole;
   infinite.replace(infinite.rfind("0 2 0 90"), 1, "1e30");
   expectNames(reading.complaint(figureScene(), infinite), {"/figures/0/motion", "Shoulder", "frame 1"});
+  for (const char* const time : {"0", "-1", "nan", "1e-300"}) {
+    std::string timed = whole;
+    timed.replace(timed.find("Time: 1") + 6, 1, time);
+    expectNames(reading.complaint(figureScene(), timed), {"/figures/0/motion", "the time of a frame"});
+  }
+  for (const char* const offset : {"1e60", "nan", "1e7"}) {
+    std::string far = whole;
+    far.replace(far.rfind("OFFSET 1") + 7, 1, offset);
+    expectNames(reading.complaint(figureScene(), far), {"/figures/0/motion", "Elbow", "the end of its bone"});
+  }
   Json json = figureScene();
   json["figures"][0]["motion"] = "missing.bvh";
   expectNames(reading.complaint(json), {"/figures/0/motion", "no such file"});
