@@ -22,7 +22,7 @@ std::string readTextFile(const std::string& path) {
   if (std::filesystem::is_directory(status)) throw std::invalid_argument("is a directory, must be a file");
   std::ifstream stream(path, std::ios::binary);
   std::string text;
-  std::vector<char> part(1 << 20);
+  std::vector<char> part(1 << 16);
   while (stream.good()) {
     stream.read(part.data(), static_cast<std::streamsize>(part.size()));
     text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
