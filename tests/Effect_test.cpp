@@ -10,6 +10,7 @@
 #include "tests/support/Materials.h"
 #include "tests/support/Patches.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace wetcloth_test::effect_test {

@@ -10,6 +10,8 @@
 #include "tests/support/Patches.h"
 #include "tests/support/RigidBody.h"
 
+#include <algorithm>
+
 namespace wetcloth_test::no_effects_no_change_test {
 
 namespace {

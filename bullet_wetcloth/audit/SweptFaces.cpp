@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/bullet/Layers.h"
 #include "bullet_wetcloth/state/StateArchive.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>

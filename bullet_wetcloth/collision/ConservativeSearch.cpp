@@ -3,6 +3,8 @@
 
 #include "bullet_wetcloth/collision/IntervalTest.h"
 
+#include <algorithm>
+
 namespace wetcloth::collision {
 namespace {
 

@@ -9,6 +9,7 @@
 #include "bullet_wetcloth/collision/Nearest.h"
 #include "bullet_wetcloth/collision/ToDouble.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "bullet_wetcloth/collision/IntervalTest.h"
 
+#include <algorithm>
+
 namespace wetcloth::collision {
 namespace {
 

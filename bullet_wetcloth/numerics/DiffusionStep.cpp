@@ -3,6 +3,8 @@
 
 #include "bullet_wetcloth/bullet/Index.h"
 
+#include <algorithm>
+
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
 

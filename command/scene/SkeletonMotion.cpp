@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "command/scene/SkeletonMotion.h"
 
+#include "command/scene/Trial.h"
+
 #include <assimp/config.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
@@ -209,6 +211,10 @@ class SkeletonReader {
 SkeletonMotion readSkeletonMotion(const std::string& file, const Placement& placement) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);  // no skin of its own making
+  // assimp 5.2 crashes, for one, on a glTF skin without "inverseBindMatrices", which may be left out.
+  if (!survivesTrial([&] { importer.ReadFile(file, 0); })) {
+    throw std::invalid_argument("is something that assimp, which reads such files, crashes on");
+  }
   const aiScene* const scene = importer.ReadFile(file, 0);
   if (scene == nullptr || scene->mRootNode == nullptr) throw std::invalid_argument(importer.GetErrorString());
   return SkeletonReader(*scene, placement).read();

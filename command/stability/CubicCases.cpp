@@ -4,6 +4,7 @@
 #include <bullet_wetcloth/collision/ContinuousCheck.h>
 #include "command/ccd/TextbookCheck.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>

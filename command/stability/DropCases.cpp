@@ -2,6 +2,7 @@
 #include "command/stability/CaseParts.h"
 #include "command/stability/Cases.h"
 
+#include <algorithm>
 #include <memory>
 
 // Drops that strike a light cloth hard.

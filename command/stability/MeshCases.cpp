@@ -3,6 +3,7 @@
 #include "command/stability/Cases.h"
 #include "command/stability/NaiveMethods.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>

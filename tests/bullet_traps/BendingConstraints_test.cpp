@@ -9,6 +9,7 @@
 
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
+#include <algorithm>
 #include <limits>
 #include <set>
 

@@ -9,6 +9,8 @@
 #include "tests/support/Measures.h"
 #include "tests/support/Patches.h"
 
+#include <algorithm>
+
 namespace wetcloth_test::explicit_wind_overshoots_test {
 
 namespace {

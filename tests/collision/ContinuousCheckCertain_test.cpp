@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace wetcloth_test::continuous_check_certain_test {
 namespace {
 

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace wetcloth_test::coplanarity_cubic_test {
 namespace {
 

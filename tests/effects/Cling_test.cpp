@@ -13,6 +13,8 @@
 #include "tests/support/RigidBody.h"
 #include "tests/support/SoftBodies.h"
 
+#include <algorithm>
+
 namespace wetcloth_test::cling_test {
 namespace {
 

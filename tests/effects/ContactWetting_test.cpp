@@ -13,6 +13,8 @@
 #include "tests/support/Rejection.h"
 #include "tests/support/RigidBody.h"
 
+#include <algorithm>
+
 namespace wetcloth_test::contact_wetting_test {
 namespace {
 

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace wetcloth_test::diffusion_closed_forms_test {
 
 using namespace transport;

@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace wetcloth_test::diffusion_convergence_test {
 
 using namespace transport;

@@ -9,6 +9,7 @@
 #include "tests/support/SoftBodies.h"
 #include "tests/support/TransportScene.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace wetcloth_test::diffusion_upkeep_test {

@@ -13,6 +13,7 @@
 #include "tests/support/RigidBody.h"
 #include "tests/support/SoftBodies.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace wetcloth_test::seepage_test {
 
 using namespace transport;

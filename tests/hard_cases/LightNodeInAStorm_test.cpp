@@ -11,6 +11,8 @@
 #include "tests/support/Measures.h"
 #include "tests/support/Patches.h"
 
+#include <algorithm>
+
 namespace wetcloth_test::light_node_in_astorm_test {
 
 namespace {

@@ -2,6 +2,7 @@
 // Bodies of many nodes, whose tree Bullet's own constructor makes too slowly.
 
 #include "bullet_wetcloth/bullet_wetcloth.h"
+#include "tests/support/BodyScene.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
 #include "tests/support/InEveryWorld.h"
@@ -161,20 +162,18 @@ TEST_IN_EVERY_WORLD(LooseNodesInAWorld, MoveAsOnBulletsTreeWhereNothingTouchesTh
 
 TEST(LooseNodesState, GoesOnAfterARestoreAsWithoutOne) {
   const auto fall = [](bool isRestored) {
-    BulletWorld world(WorldKind::softRigid);
-    const auto body = hangingPatch().build(world.info());
-    world.add(*body);
-    wetcloth::WetClothWorld wet(world.world());
-    wet.add(*body);
-    world.step(2, btScalar(1) / 30);
+    BodyScene scene(WorldKind::softRigid, hangingPatch());
+    wetcloth::WetClothWorld wet(scene.world());
+    wet.add(scene.body());
+    scene.bullet().step(2, btScalar(1) / 30);
     std::stringstream saved;
     wet.save(saved);
     if (isRestored) {
-      world.step(4, btScalar(1) / 30);
+      scene.bullet().step(4, btScalar(1) / 30);
       wet.restore(saved);
     }
-    world.step(4, btScalar(1) / 30);
-    return stateOf(*body);
+    scene.bullet().step(4, btScalar(1) / 30);
+    return stateOf(scene.body());
   };
   EXPECT_TRUE(sameBits(fall(true), fall(false)));
 }

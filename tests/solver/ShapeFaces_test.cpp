@@ -18,6 +18,7 @@
 #include <BulletCollision/CollisionShapes/btTriangleMesh.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>

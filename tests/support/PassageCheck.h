@@ -6,6 +6,7 @@
 
 #include <BulletSoftBody/btSoftBody.h>
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <functional>

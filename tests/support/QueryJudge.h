@@ -8,6 +8,8 @@
 #include <bullet_wetcloth/collision/CoplanarityCubic.h>
 #include <bullet_wetcloth/collision/ExactContact.h>
 
+#include <algorithm>
+
 namespace wetcloth_test {
 
 struct Verdict {

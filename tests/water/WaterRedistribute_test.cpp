@@ -13,6 +13,7 @@
 #include "tests/support/Patches.h"
 #include "tests/support/UnevenWater.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
