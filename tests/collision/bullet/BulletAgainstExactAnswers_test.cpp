@@ -317,8 +317,8 @@ TEST(BulletAgainstExactAnswers, ClothQueries) {
 
 // What the blame above rests on.
 TEST(BulletAgainstExactAnswers, OurCopyOfBulletsPipelineAnswersAsBulletDoes) {
-  for (const std::string collection : {"real", "cloth"})
-    for (const double step : {kStepOfOne, kBulletsDefaultStep})
+  for (const std::string collection : {"real", "cloth"}) {
+    for (const double step : {kStepOfOne, kBulletsDefaultStep}) {
       for (const KnownQuery& known : queriesThatBulletKnows(collection)) {
         const command::BulletQuery query(known.points, step);
         if (hasSeparatingPlane(&query.face(), &query.node(), query.step())) {
@@ -328,6 +328,8 @@ TEST(BulletAgainstExactAnswers, OurCopyOfBulletsPipelineAnswersAsBulletDoes) {
               << known.id << ": Bullet's continuousCollisionDetection changed: update docs/ccd.md";
         }
       }
+    }
+  }
 }
 
 // Bullet's Bernstein coefficients are those of the same cubic, times 3: with its units of length^3 they are compared
@@ -335,7 +337,7 @@ TEST(BulletAgainstExactAnswers, OurCopyOfBulletsPipelineAnswersAsBulletDoes) {
 TEST(BulletAgainstExactAnswers, ItsBernsteinCullingLosesNoContact) {
   // A coefficient is a sum of 24 products that each are rounded thrice.
   constexpr Wide kRoundings = 72;
-  for (const std::string collection : {"real", "cloth"})
+  for (const std::string collection : {"real", "cloth"}) {
     for (const KnownQuery& known : queriesThatBulletKnows(collection)) {
       const command::BulletQuery query(known.points);
       if (known.meets) {
@@ -348,9 +350,11 @@ TEST(BulletAgainstExactAnswers, ItsBernsteinCullingLosesNoContact) {
       const Wide expected[4] = {3 * a[0], 3 * a[0] + a[1], 3 * a[0] + 2 * a[1] + a[2], 3 * (a[0] + a[1] + a[2] + a[3])};
       const Wide coordinates = [&] {
         Wide most = 0;
-        for (const auto* points : {&known.points.start, &known.points.end})
-          for (const auto& point : *points)
+        for (const auto* points : {&known.points.start, &known.points.end}) {
+          for (const auto& point : *points) {
             for (const double coordinate : point) most = std::max(most, std::fabs(Wide(coordinate)));
+          }
+        }
         return most;
       }();
       // m_q is rounded to the digits of the place, not of the motion.
@@ -359,6 +363,7 @@ TEST(BulletAgainstExactAnswers, ItsBernsteinCullingLosesNoContact) {
       const Wide tolerance = kRoundings * SIMD_EPSILON * (scale + coordinates * size * size);
       for (int i = 0; i < 4; ++i) EXPECT_NEAR(double(k[i]), double(expected[i]), double(tolerance)) << known.id;
     }
+  }
 }
 
 // Rounding to float makes other queries of some: there Bullet is not to blame, whatever it answers. In float64, and for
@@ -373,13 +378,14 @@ TEST(BulletAgainstExactAnswers, RoundingChangesSomeAnswersInFloat32) {
       const btSoftBody::Node* nodes[4] = {&bullet.node(), bullet.face().m_n[0], bullet.face().m_n[1],
                                           bullet.face().m_n[2]};
       wetcloth::collision::Query<double> rounded;
-      for (int i = 0; i < 4; ++i)
+      for (int i = 0; i < 4; ++i) {
         for (int axis = 0; axis < 3; ++axis) {
           rounded.start[i][axis] = double(nodes[i]->m_x[axis]);
           // Where a place and a motion differ much in size, their sum is rounded once more, to double. That turns one
           // answer: without it, by rational arithmetic, 7 contacts are lost and 8 gained.
           rounded.end[i][axis] = double(nodes[i]->m_x[axis]) + double(nodes[i]->m_v[axis]);
         }
+      }
       const bool meets = exact(wetcloth::collision::Pair::vertexFace, rounded).found;
       lost += known.meets && !meets;
       lostAndMissed += known.meets && !meets && !bullet.check();
@@ -401,7 +407,7 @@ TEST(BulletAgainstExactAnswers, ItsUnreachableInsideTestWouldLoseContacts) {
     for (const KnownQuery& known : queriesThatBulletKnows(collection)) {
       if (!known.meets) continue;
       const command::BulletQuery query(known.points);
-      btScalar k0, k1, k2, k3;
+      btScalar k0 = 0, k1 = 0, k2 = 0, k3 = 0;
       getBernsteinCoeff(&query.face(), &query.node(), query.step(), k0, k1, k2, k3);
       lost += !coplanarAndInsideTest(k0, k1, k2, k3, &query.face(), &query.node(), query.step());
     }

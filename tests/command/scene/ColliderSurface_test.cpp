@@ -34,7 +34,7 @@ struct Case {
 std::vector<Case> cases() {
   const btVector3 a(1, 0, 0), b(1, 2, 0);
   std::vector<btVector3> corners;
-  for (int i = 0; i < 8; ++i) corners.emplace_back(btScalar(i & 1), btScalar(i & 2), btScalar((i & 4) / 4));
+  for (int i = 0; i < 8; ++i) corners.emplace_back(btScalar(i & 1), btScalar(i & 2), btScalar((i >> 2) & 1));
   return {{"box", Collider(command::Box{a, btVector3(1, 2, 3)}), 48},
           {"sphere", Collider(command::Sphere{a, 2}), 4 * SIMD_PI * 8 / 3},
           {"capsule", Collider(command::Capsule{a, b, 0.5}), SIMD_PI * 0.25 * 2 + 4 * SIMD_PI * 0.125 / 3},
