@@ -65,7 +65,10 @@ void expectClosedObjects(const Json& schema, const std::string& where) {
     EXPECT_EQ(schema.value("additionalProperties", Json(true)), false) << where;
   }
   if (!schema.is_structured()) return;
-  for (const auto& [key, value] : schema.items()) expectClosedObjects(value, where + "/" + key);
+  for (const auto& [key, value] : schema.items()) {
+    std::string below = where;
+    expectClosedObjects(value, below.append("/").append(key));
+  }
 }
 
 TEST(Schema, HasTheKeysThatTheReaderKnowsAndNoOthers) {
@@ -88,9 +91,9 @@ TEST(Schema, AllowsNoOtherKeysAnywhere) { expectClosedObjects(readJson(schemaFil
 TEST(Schema, AcceptsEveryScene) {
   if (!hasJsonSchema()) GTEST_SKIP() << "python3 has no jsonschema (Debian: python3-jsonschema)";
   std::vector<std::string> files = sceneFiles();
-  files.push_back(WETCLOTH_SOURCE_DIR "/tests/scenes/small.json");
-  files.push_back(WETCLOTH_SOURCE_DIR "/tests/scenes/water_cycle.json");
-  files.push_back(WETCLOTH_SOURCE_DIR "/examples/scenes/figures/shirt_walking_in_rain.json");
+  files.emplace_back(WETCLOTH_SOURCE_DIR "/tests/scenes/small.json");
+  files.emplace_back(WETCLOTH_SOURCE_DIR "/tests/scenes/water_cycle.json");
+  files.emplace_back(WETCLOTH_SOURCE_DIR "/examples/scenes/figures/shirt_walking_in_rain.json");
   EXPECT_EQ(complaints(files), "");
 }
 
