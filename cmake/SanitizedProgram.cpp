@@ -9,4 +9,5 @@ int dlclose(void*) { return 0; }
 
 /// assimp does not give back all that it has read of a file that it then refuses.
 const char* __lsan_default_suppressions() { return "leak:libassimp\n"; }
+const char* __lsan_default_options() { return "print_suppressions=0"; }
 }
