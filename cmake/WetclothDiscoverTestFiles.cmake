@@ -16,6 +16,7 @@ function(wetcloth_discover_test_files target)
     CONTENT
       "set(program \"$<TARGET_FILE:${target}>\")
 set(emulator \"${CMAKE_CROSSCOMPILING_EMULATOR}\")
+set(sanitizers \"${WETCLOTH_SANITIZE}\")
 set(prefix \"${arg_PREFIX}\")
 set(directory \"${arg_WORKING_DIRECTORY}\")
 set(listing \"${target}-tests.json\")

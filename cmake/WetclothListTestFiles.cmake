@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: Zlib
-# Run by CTest, with `program`, `emulator`, `prefix`, `directory`, `listing` and `longest` set: see WetclothDiscoverTestFiles.cmake.
+# Run by CTest, with `program`, `emulator`, `sanitizers`, `prefix`, `directory`, `listing` and `longest` set: see
+# WetclothDiscoverTestFiles.cmake.
 cmake_policy(VERSION 3.21)  # CTest has none
 if(NOT EXISTS "${program}")
   add_test("${prefix}NOT_BUILT" "${program}")
   return()
 endif()
+# Several CTests may run in one folder.
+file(LOCK "${directory}/${listing}.lock")
 execute_process(
   COMMAND ${emulator} "${program}" --gtest_list_tests "--gtest_output=json:${listing}"
   WORKING_DIRECTORY "${directory}"
@@ -17,6 +20,7 @@ endif()
 # suites_<name of a file>: a list. A suite is indented less than its cases, and its first case names its file.
 set(names "")
 file(STRINGS "${directory}/${listing}" lines REGEX "^(      \"name\"|          \"file\")")
+file(LOCK "${directory}/${listing}.lock" RELEASE)
 string(REPLACE "\\/" "/" lines "${lines}")
 set(suite "")
 foreach(line IN LISTS lines)
@@ -40,9 +44,9 @@ endforeach()
 # What GoogleTest says last where every test was skipped; where one failed as well, more follows. It only says so without
 # --gtest_brief.
 set(all_skipped "\\[  PASSED  \\] 0 tests\\.\r?\n(\\[  SKIPPED \\][^\n]*\n)+$")
-# Seconds; an emulator takes ten times as long.
+# Seconds; an emulator and the thread sanitizer take ten times as long.
 set(timeout 600)
-if(emulator)
+if(emulator OR sanitizers)
   set(timeout 6000)
 endif()
 foreach(name IN LISTS names)
