@@ -206,6 +206,13 @@ class SkeletonReader {
   SkeletonMotion m_motion;
 };
 
+/// One line; assimp may say nothing, and may take for a scene what has no node.
+std::string complaintOf(const Assimp::Importer& importer) {
+  std::string complaint = importer.GetErrorString();
+  std::replace(complaint.begin(), complaint.end(), '\n', ' ');
+  return complaint.empty() ? "has no joints: assimp finds no node in it" : complaint;
+}
+
 }  // namespace
 
 SkeletonMotion readSkeletonMotion(const std::string& file, const Placement& placement) {
@@ -216,7 +223,7 @@ SkeletonMotion readSkeletonMotion(const std::string& file, const Placement& plac
     throw std::invalid_argument("is something that assimp, which reads such files, crashes on");
   }
   const aiScene* const scene = importer.ReadFile(file, 0);
-  if (scene == nullptr || scene->mRootNode == nullptr) throw std::invalid_argument(importer.GetErrorString());
+  if (scene == nullptr || scene->mRootNode == nullptr) throw std::invalid_argument(complaintOf(importer));
   return SkeletonReader(*scene, placement).read();
 }
 
