@@ -14,7 +14,8 @@
 
 namespace wetcloth_test::state_scene {
 
-/// A cloth with a pose, clusters, and anchors to a box, above a body that is not a rigid one.
+/// A cloth with a pose, clusters, and anchors to a box, above a body that is not a rigid one: but for the deformable
+/// worlds, where impulses of such a one are what the stack happens to hold.
 class FurnishedScene {
  public:
   explicit FurnishedScene(WorldKind kind) : m_scene(kind) {
@@ -27,16 +28,21 @@ class FurnishedScene {
     } else {
       for (const int node : {3, 7}) body.appendAnchor(node, &m_box.body());
     }
-    m_object.setCollisionShape(&m_sphere);
-    m_object.getWorldTransform().setOrigin(btVector3(btScalar(0.5), btScalar(-0.22), btScalar(0.5)));
-    m_scene.world().addCollisionObject(&m_object);
+    if (m_scene.bullet().isDeformable()) {
+      m_below = std::make_unique<btRigidBody>(btScalar(0), nullptr, &m_sphere);
+    } else {
+      m_below = std::make_unique<btCollisionObject>();
+      m_below->setCollisionShape(&m_sphere);
+    }
+    m_below->getWorldTransform().setOrigin(btVector3(btScalar(0.5), btScalar(-0.22), btScalar(0.5)));
+    m_scene.world().addCollisionObject(m_below.get());
     m_wet = std::make_unique<wetcloth::WetClothWorld>(m_scene.world());
     m_wet->setLog(nullptr);
     m_wet->add(body);
   }
   ~FurnishedScene() {
     m_wet.reset();
-    m_scene.world().removeCollisionObject(&m_object);
+    m_scene.world().removeCollisionObject(m_below.get());
   }
   FurnishedScene(const FurnishedScene&) = delete;
   FurnishedScene& operator=(const FurnishedScene&) = delete;
@@ -57,7 +63,7 @@ class FurnishedScene {
   BodyScene m_scene;
   RigidBody m_box{m_scene.bullet(), box(0.1, 0.1, 0.1), btScalar(0.2), btVector3(btScalar(-0.2), 0, btScalar(0.6))};
   btSphereShape m_sphere{btScalar(0.2)};
-  btCollisionObject m_object;
+  std::unique_ptr<btCollisionObject> m_below;
   std::unique_ptr<wetcloth::WetClothWorld> m_wet;
 };
 
