@@ -83,12 +83,12 @@ class WETCLOTH_EXPORT Effect {
   /// a restore, as if it had just been added.
   virtual void transferState(StateArchive& archive) { static_cast<void>(archive); }
 
+  /// What an effect remembers is of one cloth.
+  Effect(const Effect&) = delete;
+  Effect& operator=(const Effect&) = delete;
+
  protected:
   Effect() = default;
-  /// For derived classes that allow it.
-  Effect(const Effect&) = default;
-  /// For derived classes that allow it.
-  Effect& operator=(const Effect&) = default;
 };
 
 }  // namespace WETCLOTH_PRECISION

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <exception>
 #include <string>
 #include <utility>
@@ -37,6 +38,12 @@ void EffectList::clear() {
 bool EffectList::has(Stage stage) const {
   return std::any_of(m_entries.begin(), m_entries.end(),
                      [stage](const Entry& entry) { return entry.effect->stage() == stage; });
+}
+
+bool EffectList::has(const char* name, const Effect* but) const {
+  return std::any_of(m_entries.begin(), m_entries.end(), [&](const Entry& entry) {
+    return entry.effect.get() != but && std::strcmp(entry.effect->name(), name) == 0;
+  });
 }
 
 bool EffectList::apply(Stage first, Stage last, const Step& step) {
@@ -71,9 +78,12 @@ bool EffectList::attachAgain() {
   return allWell;
 }
 
-bool EffectList::wakes(const Step& step) const {
-  return std::any_of(m_entries.begin(), m_entries.end(),
-                     [&](const Entry& entry) { return entry.effect->wakes(m_cloth, step); });
+bool EffectList::wakes(const Step& step) {
+  bool one = false;
+  for (std::size_t next = 0; next < m_entries.size() && !one;) {
+    if (guarded(next, [&](const Effect& effect) { one = effect.wakes(m_cloth, step); })) ++next;
+  }
+  return one;
 }
 
 // Whether the action ended without an exception. Otherwise the effect is no longer in the list.
@@ -83,10 +93,8 @@ bool EffectList::guarded(std::size_t index, Action action) {
   try {
     action(*m_entries[index]);
     return true;
-  } catch (const std::exception& error) {
-    reason = error.what();
   } catch (...) {
-    reason = "an exception that is no std::exception";
+    reason = currentMessage();
   }
   m_cloth.log(std::string("wetcloth: effect ") + m_entries[index].effect->name() + " removed: " + reason);
   const Entry failed = std::move(m_entries[index]);

@@ -47,6 +47,8 @@ class WETCLOTH_EXPORT EffectList {
     }
     return nullptr;
   }
+  /// Whether one of this Effect::name() is there, other than `but`; whatever class it was added as.
+  bool has(const char* name, const Effect* but = nullptr) const;
   /// In the order in which they run.
   const std::vector<Entry>& entries() const { return m_entries; }
 
@@ -54,8 +56,8 @@ class WETCLOTH_EXPORT EffectList {
   bool apply(Stage first, Stage last, const Step& step);
   /// The body changed. False: one threw and was removed. Never throws.
   bool attachAgain();
-  /// Whether one of them would wake the body.
-  bool wakes(const Step& step) const;
+  /// Whether one of them would wake the body. One that throws is removed. Never throws.
+  bool wakes(const Step& step);
 
   /// Each effect's own, by its name.
   void transferState(StateArchive& archive);

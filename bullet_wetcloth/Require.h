@@ -40,11 +40,17 @@ WETCLOTH_EXPORT void requireFraction(const std::string& field, double value);
 /// Throws std::invalid_argument with the field and the value unless it is finite.
 WETCLOTH_EXPORT void requireFinite(const std::string& field, double value);
 
+/// The same unless it is finite as Bullet's scalar.
+WETCLOTH_EXPORT void requireFiniteScalar(const std::string& field, double value);
+
 /// Throws std::invalid_argument with the field, its axis ("field.x") and the value unless all three are finite.
 WETCLOTH_EXPORT void requireFinite(const std::string& field, const btVector3& value);
 
 /// Whether all three are.
 WETCLOTH_EXPORT bool isFinite(const btVector3& v);
+
+/// What the exception that is being handled says.
+WETCLOTH_EXPORT std::string currentMessage();
 
 }  // namespace WETCLOTH_PRECISION
 }  // namespace wetcloth

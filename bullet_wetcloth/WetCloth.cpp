@@ -57,6 +57,7 @@ void WetCloth::setPace(const WaterPace& pace) {
 
 Effect& WetCloth::add(std::unique_ptr<Effect> effect, const void* type) {
   if (!effect) reject("effect", "must not be null");
+  m_world.requireBetweenSteps();
   followBody();
   if (m_effects.empty()) attachAgain();
   Effect& added = m_effects.add(std::move(effect), type);
@@ -65,6 +66,7 @@ Effect& WetCloth::add(std::unique_ptr<Effect> effect, const void* type) {
 }
 
 void WetCloth::remove(Effect& effect) {
+  m_world.requireBetweenSteps();
   m_effects.remove(effect);
   m_world.shareTick();
 }
@@ -162,8 +164,15 @@ bool WetCloth::isAwake(const Step& step) {
   }
   const double mass = totalMass();
   if (m_massAsleep == 0) m_massAsleep = mass;
-  const bool wakes = std::fabs(mass - m_massAsleep) > 0.01 * m_massAsleep || m_effects.wakes(step);
+  const bool wakes = std::fabs(mass - m_massAsleep) > 0.01 * m_massAsleep || wakesBy(step);
   if (wakes) m_body.activate(true);
+  return wakes;
+}
+
+bool WetCloth::wakesBy(const Step& step) {
+  const std::size_t effects = m_effects.entries().size();
+  const bool wakes = m_effects.wakes(step);
+  if (m_effects.entries().size() != effects) m_world.shareTick();
   return wakes;
 }
 

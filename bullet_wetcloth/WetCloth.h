@@ -63,8 +63,8 @@ class WETCLOTH_EXPORT WetCloth {
   ///     air.velocity = btVector3(4, 0, 1);  // [m/s]
   ///     towel.add<Wind>(air);
   ///
-  /// Throws std::invalid_argument when a parameter is out of range or the body lacks what the effect needs;
-  /// the cloth is then as it was.
+  /// Throws std::invalid_argument when a parameter is out of range or the body lacks what the effect needs, and in a
+  /// step; the cloth is then as it was.
   template <class E>
   E& add(typename E::Parameters parameters = {}) {
     return add(std::make_unique<E>(std::move(parameters)));
@@ -79,8 +79,8 @@ class WETCLOTH_EXPORT WetCloth {
   }
   /// The same for one whose class is not known here: find() and forEach() pass it over.
   Effect& add(std::unique_ptr<Effect> effect) { return add(std::move(effect), nullptr); }
-  /// Removes an effect of this cloth and deletes it. Throws std::invalid_argument when it is not one of them, and what
-  /// its detach() throws.
+  /// Removes an effect of this cloth and deletes it. Throws std::invalid_argument when it is not one of them and in a
+  /// step, and what its detach() throws.
   void remove(Effect& effect);
 
   /// In the order in which the step runs them: `for (Effect& effect : towel.effects())`. Ends with the next add() or
@@ -101,6 +101,8 @@ class WETCLOTH_EXPORT WetCloth {
   const E* find() const {
     return static_cast<const E*>(m_effects.find(&EffectType<E>::tag));
   }
+  /// Whether an effect of this Effect::name() is there, other than `but`; whatever class it was added as.
+  bool has(const char* name, const Effect* but = nullptr) const { return m_effects.has(name, but); }
   /// Calls action(E&) for each effect that was added as an E, in the order of effects().
   template <class E, class Action>
   void forEach(Action action) {
@@ -243,6 +245,7 @@ class WETCLOTH_EXPORT WetCloth {
   void releaseNodes();
   void commit();
   bool isAwake(const Step& step);
+  bool wakesBy(const Step& step);
   /// Whether the body, which is in the world, is the one that was added. One that came back may be another that an
   /// allocator has put at its address: it is the same if it has stepped, or is in all as we left it.
   bool isOfThisBody();

@@ -54,6 +54,18 @@ void requireValid(const std::vector<Fabric>& fabrics, const std::vector<int>& fa
   }
 }
 
+// While it lives, a step runs.
+class Stepping {
+ public:
+  explicit Stepping(bool& isStepping) : m_isStepping(isStepping) { m_isStepping = true; }
+  ~Stepping() { m_isStepping = false; }
+  Stepping(const Stepping&) = delete;
+  Stepping& operator=(const Stepping&) = delete;
+
+ private:
+  bool& m_isStepping;
+};
+
 bool hasGravityForce(btDeformableBodySolver& solver) {
   const btAlignedObjectArray<btDeformableLagrangianForce*>& forces = solver.m_objective->m_lf;
   for (int i = 0; i < forces.size(); ++i) {
@@ -122,6 +134,7 @@ WetCloth& WetClothWorld::add(btSoftBody& body, const Fabric& fabric) {
 }
 
 WetCloth& WetClothWorld::add(btSoftBody& body, std::vector<Fabric> fabrics, std::vector<int> fabricOfNode) {
+  requireBetweenSteps();
   if (const WetCloth* const known = find(body)) noticeDeletion(*known);
   requireAttached();
   requireValid(fabrics, fabricOfNode, body.m_nodes.size());
@@ -154,6 +167,7 @@ WetCloth& WetClothWorld::add(btSoftBody* body, std::vector<Fabric> fabrics, std:
 }
 
 void WetClothWorld::remove(btSoftBody& body) {
+  requireBetweenSteps();
   const auto wraps = [&](const std::unique_ptr<WetCloth>& cloth) { return &cloth->body() == &body; };
   const auto position = std::find_if(m_cloths.begin(), m_cloths.end(), wraps);
   if (position == m_cloths.end()) reject("body", "was not added to this WetClothWorld");
@@ -191,8 +205,13 @@ bool WetClothWorld::isHooked() const {
 
 bool WetClothWorld::isTickHooked() const { return m_sharesTick && m_substepHook->isInPlace(SubstepHook::Slot::tick); }
 
+void WetClothWorld::requireBetweenSteps() const {
+  if (m_isStepping) reject("WetClothWorld", "is in a step; cloths and effects come and go between steps");
+}
+
 void WetClothWorld::preTick(btScalar dt) {
   if (!m_substepHook || !(std::isfinite(dt) && dt > 0)) return;
+  const Stepping stepping(m_isStepping);
   m_stepStart = m_time;
   for (const auto& cloth : m_cloths) {
     if (noticePresence(*cloth)) cloth->observe(stepOf(cloth->m_body, dt, m_time));
@@ -211,6 +230,7 @@ void WetClothWorld::preTick(btScalar dt) {
 
 void WetClothWorld::tick(btScalar dt) {
   if (!m_substepHook || !(std::isfinite(dt) && dt > 0)) return;
+  const Stepping stepping(m_isStepping);
   for (const auto& cloth : m_cloths) {
     if (noticePresence(*cloth)) cloth->stepContacts(stepOf(cloth->m_body, dt, m_stepStart));
   }
@@ -296,7 +316,11 @@ bool WetClothWorld::isInWorld(const btSoftBody& body) const {
 void WetClothWorld::setLog(std::function<void(const std::string&)> log) { m_log = std::move(log); }
 
 void WetClothWorld::log(const std::string& message) const {
-  if (m_log) m_log(message);
+  if (!m_log) return;
+  try {
+    m_log(message);
+  } catch (...) {  // it must not travel through Bullet's step
+  }
 }
 
 void WetClothWorld::save(std::ostream& stream) const {

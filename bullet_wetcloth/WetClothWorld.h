@@ -51,7 +51,8 @@ class WETCLOTH_EXPORT WetClothWorld {
   /// Wraps a soft body of this world; dry at first. Its free nodes' present masses are their dry masses.
   /// Throws std::invalid_argument when the body is not in the world, was added before, has no nodes or a mass that
   /// is not finite, is a reduced deformable one, or when a field of the fabric is out of range. A cloth whose body was
-  /// deleted and that another body is found in the place of, is forgotten.
+  /// deleted and that another body is found in the place of, is forgotten. In a step, as in an effect's apply(), it
+  /// throws, too: cloths and effects come and go between steps.
   ///
   /// Where Bullet would hang in a step that makes the body's tree of faces anew (MeshReport::bulletBuildsFaceTree()),
   /// as in the first one and after setMass() or a cut, that step begins with our buildFaceTree().
@@ -69,7 +70,8 @@ class WETCLOTH_EXPORT WetClothWorld {
   /// destructor neither, and add(), save() and restore() throw std::invalid_argument.
   void detach();
 
-  /// Forgets a cloth. The body keeps its present (wet) masses. Throws std::invalid_argument when it is not known.
+  /// Forgets a cloth. The body keeps its present (wet) masses. Throws std::invalid_argument when it is not known, and
+  /// in a step.
   void remove(btSoftBody& body);
   /// The cloth that wraps this body, or null.
   WetCloth* find(const btSoftBody& body);
@@ -129,7 +131,7 @@ class WETCLOTH_EXPORT WetClothWorld {
   double time() const { return m_time; }
 
   /// Takes the library's messages (a body left the world, was cut, ...). The default writes to std::clog; an empty
-  /// function silences them.
+  /// function silences them. What it throws is lost.
   void setLog(std::function<void(const std::string&)> log);
   /// Says something through it.
   void log(const std::string& message) const;
@@ -142,6 +144,7 @@ class WETCLOTH_EXPORT WetClothWorld {
   void transferState(StateArchive& archive);
   void transferSolver(StateArchive& archive) const;
   void requireAttached() const;
+  void requireBetweenSteps() const;
   void noticeDeletion(const WetCloth& cloth);
   bool noticePresence(WetCloth& cloth) const;
   Step stepOf(const btSoftBody& body, btScalar dt, double time) const;
@@ -159,6 +162,7 @@ class WETCLOTH_EXPORT WetClothWorld {
   std::function<void(const std::string&)> m_log;
   double m_time = 0;
   double m_stepStart = 0;  // of the substep that runs [s]
+  bool m_isStepping = false;
   bool m_sharesTick = false;
 };
 

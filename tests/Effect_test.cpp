@@ -11,7 +11,9 @@
 #include "tests/support/Patches.h"
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
+#include <type_traits>
 
 namespace wetcloth_test::effect_test {
 
@@ -249,6 +251,86 @@ TEST_IN_EVERY_WORLD(OwnEffect, ThatIsNotOursCannotBeRemoved) {
   cloth.remove(ours);
   scene.bullet().step(5);
   EXPECT_EQ(cloth.ledger().held, before);
+}
+
+// What an effect remembers of its cloth would be wrong for another one.
+static_assert(!std::is_copy_constructible_v<wetcloth::Swelling> && !std::is_copy_assignable_v<wetcloth::Swelling>);
+static_assert(!std::is_move_constructible_v<wetcloth::Wind> && !std::is_move_assignable_v<wetcloth::Wind>);
+
+TEST_IN_EVERY_WORLD(OwnEffect, ComesAndGoesBetweenStepsOnly) {
+  BodyScene scene(GetParam());
+  wetcloth::WetClothWorld wet(scene.world());
+  std::vector<std::string> messages;
+  wet.setLog([&messages](const std::string& message) { messages.push_back(message); });
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
+  Names names;
+  using Act = std::function<void(wetcloth::WetCloth&)>;
+  const std::vector<Act> acts = {
+      [](wetcloth::WetCloth& c) { c.remove(c.effects()[0]); },
+      [](wetcloth::WetCloth& c) { c.add<wetcloth::Absorption>(); },
+      [](wetcloth::WetCloth& c) { c.world().remove(c.body()); },
+      [](wetcloth::WetCloth& c) { c.world().add(c.body()); },
+  };
+  for (const Act& act : acts) addCall(cloth, [act](wetcloth::WetCloth& c, const wetcloth::Step&) { act(c); });
+  addRecorder(cloth, Stage::forces, "stays", names);
+  EXPECT_NO_THROW(scene.bullet().step(1));
+  EXPECT_EQ(names, Names{"stays"});
+  EXPECT_EQ(cloth.effects().size(), 1u);
+  ASSERT_EQ(messages.size(), acts.size());
+  for (const std::string& message : messages) EXPECT_NE(message.find("in a step"), std::string::npos) << message;
+  cloth.remove(cloth.effects()[0]);
+  EXPECT_TRUE(cloth.effects().empty());
+}
+
+class WakesBadly : public wetcloth::Effect {
+ public:
+  const char* name() const override { return "WakesBadly"; }
+  Stage stage() const override { return Stage::contact; }
+  void apply(wetcloth::WetCloth&, const wetcloth::Step&) override {}
+  bool wakes(const wetcloth::WetCloth&, const wetcloth::Step&) const override { throw 5; }
+};
+
+TEST(OwnEffectOfASleeper, ThatThrowsIsRemovedToo) {
+  BodyScene scene(WorldKind::deformable);
+  wetcloth::WetClothWorld wet(scene.world());
+  std::string said;
+  wet.setLog([&said](const std::string& message) { said += message; });
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
+  cloth.add(std::make_unique<WakesBadly>());
+  scene.body().forceActivationState(ISLAND_SLEEPING);
+  EXPECT_NO_THROW(scene.bullet().step(1));
+  EXPECT_TRUE(cloth.effects().empty());
+  EXPECT_NE(said.find("WakesBadly removed"), std::string::npos) << said;
+}
+
+// Which class it was added as is no matter: what it changes in the body is the same.
+TEST(SecondEffect, IsRefusedHoweverTheFirstWasAdded) {
+  BodyScene scene(WorldKind::softRigid);
+  wetcloth::WetClothWorld wet(scene.world());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
+  using wetcloth::Effect;
+  cloth.add(std::unique_ptr<Effect>(std::make_unique<wetcloth::HookeSprings>(wetcloth::HookeSprings::Parameters())));
+  cloth.add(std::unique_ptr<Effect>(std::make_unique<wetcloth::Swelling>(wetcloth::Swelling::Parameters())));
+  cloth.add(std::unique_ptr<Effect>(std::make_unique<wetcloth::WetStiffness>(wetcloth::WetStiffness::Parameters())));
+  EXPECT_THROW(cloth.add<wetcloth::HookeSprings>(), std::invalid_argument);
+  EXPECT_THROW(cloth.add<wetcloth::Swelling>(), std::invalid_argument);
+  EXPECT_THROW(cloth.add<wetcloth::WetStiffness>(), std::invalid_argument);
+  EXPECT_EQ(cloth.effects().size(), 3u);
+}
+
+TEST(WaterOfAnyWeight, PinsNoNode) {
+  BodyScene scene(WorldKind::softRigid);
+  wetcloth::WetClothWorld wet(scene.world());
+  wetcloth::WetCloth& cloth = exactly(wet.add(scene.body()));
+  const btScalar dry = scene.body().m_nodes[12].m_im;
+  cloth.setHeld(std::vector<double>(std::size_t(cloth.nodeCount()), 1e300));
+  EXPECT_GT(scene.body().m_nodes[12].m_im, 0);
+  cloth.setSaturation(0);
+  EXPECT_EQ(scene.body().m_nodes[12].m_im, dry);
+  wet.remove(scene.body());
+  wetcloth::Fabric repellent = wetcloth::Fabric::cotton();
+  repellent.capacity = 1e-322;
+  EXPECT_EQ(wet.add(scene.body(), repellent).meanSaturation(), 0);
 }
 
 }  // namespace

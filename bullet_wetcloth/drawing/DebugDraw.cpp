@@ -62,13 +62,14 @@ void drawSaturation(const WetCloth& cloth, btIDebugDraw& drawer) {
 }
 
 void drawWind(const WetCloth& cloth, btIDebugDraw& drawer, double time, double metresPerPascal) {
+  requireFiniteScalar("metresPerPascal", metresPerPascal);
   cloth.forEach<Wind>([&](const Wind& wind) {
     drawTractions(wind, cloth.body(), drawer, time, static_cast<btScalar>(metresPerPascal));
   });
 }
 
 void debugDraw(const WetClothWorld& world, btIDebugDraw& drawer, double metresPerPascal) {
-  requireFinite("metresPerPascal", metresPerPascal);
+  requireFiniteScalar("metresPerPascal", metresPerPascal);
   for (const WetCloth& cloth : world.cloths()) {
     if (!world.isInWorld(cloth.body())) continue;
     drawSaturation(cloth, drawer);

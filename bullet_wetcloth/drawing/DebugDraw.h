@@ -28,7 +28,8 @@ WETCLOTH_EXPORT void drawSaturation(const WetCloth& cloth, btIDebugDraw& drawer)
 
 /// Draws the traction of each Wind of a cloth, Wind::traction(), as a line from the centre of each triangle, in red;
 /// nothing where there is none.
-/// @param time  at which to ask the wind [s]; @param metresPerPascal  length of a line over the traction [m/Pa]
+/// @param time  at which to ask the wind [s]; @param metresPerPascal  length of a line over the traction [m/Pa]; throws
+/// std::invalid_argument unless it is finite
 WETCLOTH_EXPORT void drawWind(const WetCloth& cloth, btIDebugDraw& drawer, double time, double metresPerPascal);
 
 }  // namespace WETCLOTH_PRECISION

@@ -95,11 +95,22 @@ bool Drops::Flight::fly(std::size_t i) {
   return true;
 }
 
+Double3 Drops::Flight::windAt(const Double3& place, double time) {
+  WindField& wind = m_state.parameters.wind;
+  if (!wind.isFunction()) return asDouble(wind.constant());
+  try {
+    return asDouble(wind.at(asBullet(place), time));
+  } catch (...) {
+    wind = WindField();
+    m_world.log("wetcloth: Drops::Parameters::wind is 0 from now on, it threw: " + currentMessage());
+    return {};
+  }
+}
+
 DropPath Drops::Flight::pathOf(const Double3& from, const Double3& velocity, double diameter, double dt,
                                Double3& velocityAfter) {
   const Parameters& parameters = m_state.parameters;
-  const Double3 wind = asDouble(parameters.wind.isFunction() ? parameters.wind.at(asBullet(from), m_time - dt / 2)
-                                                             : parameters.wind.constant());
+  const Double3 wind = windAt(from, m_time - dt / 2);
   double squared = 0;
   for (std::size_t k = 0; k < 3; ++k) squared += (velocity[k] - wind[k]) * (velocity[k] - wind[k]);
   const DropMove move(dropDecay(diameter, std::sqrt(squared), parameters.air), dt);
@@ -236,9 +247,9 @@ void Drops::Flight::tell(const Landing& landing) {
   if (!m_state.parameters.onLanding) return;
   try {
     m_state.parameters.onLanding(landing);
-  } catch (const std::exception& error) {
+  } catch (...) {
     m_state.parameters.onLanding = nullptr;
-    m_world.log(std::string("wetcloth: Drops::Parameters::onLanding is not asked any more, it threw: ") + error.what());
+    m_world.log("wetcloth: Drops::Parameters::onLanding is not asked any more, it threw: " + currentMessage());
   }
 }
 

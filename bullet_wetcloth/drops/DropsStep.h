@@ -31,6 +31,7 @@ class Drops::Flight {
   void pour();
   void begin(const Double3& from, const Double3& velocity, double mass, double rest);
 
+  Double3 windAt(const Double3& place, double time);
   DropPath pathOf(const Double3& from, const Double3& velocity, double diameter, double dt, Double3& velocityAfter);
   Hit firstHit(const DropPath& path, const State::Followed* from = nullptr, int node = -1);
   void meetSurface(const DropPath& path, Hit& hit) const;

@@ -12,6 +12,8 @@ inline namespace WETCLOTH_PRECISION {
 
 namespace {
 
+constexpr double kRightAngle = 1.5707963267948966;
+
 void requireDiameter(const std::string& field, double diameter) {
   if (!(diameter > 0 && diameter <= 0.1)) rejectValue(field, diameter, "in (0, 0.1]");
 }
@@ -24,7 +26,7 @@ void requireValid(const std::string& prefix, const Pour& pour) {
   requireNotNegative(prefix + ".flow", pour.flow);
   requireDiameter(prefix + ".dropDiameter", pour.dropDiameter);
   requireNotNegative(prefix + ".mouthRadius", pour.mouthRadius);
-  if (!(pour.halfAngle >= 0 && pour.halfAngle < 1.5707)) {
+  if (!(pour.halfAngle >= 0 && pour.halfAngle < kRightAngle)) {
     rejectValue(prefix + ".halfAngle", pour.halfAngle, "in [0, pi/2)");
   }
   requireFinite(prefix + ".start", pour.start);

@@ -117,17 +117,17 @@ std::string Spouts::pour(const Substep& substep, const Give& give) {
   for (RunningPour& running : m_pours) {
     try {
       run(running, substep, give);
-    } catch (const std::exception& error) {
+    } catch (...) {
       running.pour.stop = running.pour.start;
-      failure = error.what();
+      failure = currentMessage();
     }
   }
   for (RunningGlass& running : m_glasses) {
     try {
       run(running, substep, give);
-    } catch (const std::exception& error) {
+    } catch (...) {
       running.glass.pose = {};
-      failure = error.what();
+      failure = currentMessage();
     }
   }
   return failure;

@@ -75,8 +75,7 @@ void HookeSprings::attach(WetCloth& cloth) {
   const std::size_t links = static_cast<std::size_t>(body.m_links.size());
   if (links == 0) rejectValue("HookeSprings: body.m_links.size()", 0, "at least 1: the springs are the body's links");
   // A second one would take the first one's powerless links for the body's own.
-  const HookeSprings* const known = cloth.find<HookeSprings>();
-  if (known && known != this) reject("HookeSprings", "the cloth has them already");
+  if (cloth.has(name(), this)) reject("HookeSprings", "the cloth has them already");
   const bool isFirst = !m_powerless;
   if (isFirst) requireSize(m_parameters, links);
   disableLinks(cloth);

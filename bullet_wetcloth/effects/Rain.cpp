@@ -18,7 +18,7 @@ void requireValid(const Rain::Parameters& parameters) {
   if (directionOf(parameters.direction).isZero()) reject("Rain.direction", "must not be of length 0");
   requireNotNegative("Rain.flux", parameters.flux);
   requireNotNegative("Rain.speed", parameters.speed);
-  requireFinite("Rain.speed", static_cast<double>(static_cast<btScalar>(parameters.speed)));  // as Bullet's scalar, too
+  requireFiniteScalar("Rain.speed", parameters.speed);
 }
 
 }  // namespace

@@ -39,8 +39,7 @@ void Swelling::attach(WetCloth& cloth) {
   if (body.m_links.size() == 0) {
     rejectValue("Swelling: body.m_links.size()", 0, "at least 1: what changes is the rest length of links");
   }
-  const Swelling* const other = cloth.find<Swelling>();
-  if (other && other != this) reject("Swelling", "the cloth has one already");
+  if (cloth.has(name(), this)) reject("Swelling", "the cloth has one already");
   m_isStale = true;
   const std::size_t known = m_lengths.size();
   if (known == static_cast<std::size_t>(body.m_links.size())) {

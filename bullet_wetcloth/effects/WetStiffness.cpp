@@ -56,7 +56,7 @@ void WetStiffness::setParameters(Parameters parameters) {
 }
 
 void WetStiffness::requireScalable(const WetCloth& cloth, const Parameters& parameters) const {
-  if (scales(parameters) && cloth.isInDeformableWorld() && !cloth.find<HookeSprings>()) {
+  if (scales(parameters) && cloth.isInDeformableWorld() && !cloth.has("HookeSprings")) {
     reject("WetStiffness",
            "in the deformable world Bullet's springs have one stiffness for all links and read none per link; add "
            "HookeSprings first, or set wetStretch and wetBending to 1");
@@ -66,8 +66,7 @@ void WetStiffness::requireScalable(const WetCloth& cloth, const Parameters& para
 void WetStiffness::attach(WetCloth& cloth) {
   const int links = cloth.body().m_links.size();
   if (links == 0) rejectValue("WetStiffness: body.m_links.size()", 0, "at least 1: stiffness is that of links");
-  const WetStiffness* const other = cloth.find<WetStiffness>();
-  if (other && other != this) reject("WetStiffness", "the cloth has one already");
+  if (cloth.has(name(), this)) reject("WetStiffness", "the cloth has one already");
   requireScalable(cloth, m_parameters);
   m_cloth = &cloth;
   m_saturation.reset(cloth.body(), cloth.water());

@@ -5,6 +5,7 @@
 #include "bullet_wetcloth/mesh/LooseNodes.h"
 #include "bullet_wetcloth/water/DryMass.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <string>
@@ -80,7 +81,7 @@ std::vector<btVector3> nodePositions(const ClothPatch& patch) {
   return positions;
 }
 
-void requireValid(const ClothPatch& patch) {
+void requireValidCounts(const ClothPatch& patch) {
   if (patch.columns < 2) rejectValue("ClothPatch.columns", patch.columns, ">= 2");
   if (patch.rows < 2) rejectValue("ClothPatch.rows", patch.rows, ">= 2");
   constexpr int kMostNodes = 1 << 26;  // 12 links a node must stay countable in an int
@@ -88,6 +89,10 @@ void requireValid(const ClothPatch& patch) {
     rejectValue("ClothPatch.columns * rows", static_cast<long long>(patch.columns) * patch.rows,
                 "at most " + std::to_string(kMostNodes));
   }
+}
+
+void requireValid(const ClothPatch& patch) {
+  requireValidCounts(patch);
   if (!isFinite(patch.origin)) rejectValue("ClothPatch.origin", "not finite", "finite");
   const btScalar area = patch.edgeU.cross(patch.edgeV).length();
   if (!(std::isfinite(area) && area > 0)) {
@@ -95,7 +100,7 @@ void requireValid(const ClothPatch& patch) {
   }
   requirePositive("ClothPatch.arealDensity", patch.arealDensity);
   const auto requireStiffness = [](const char* field, double value) {
-    if (!(value > 0 && value <= 1)) rejectValue(field, value, "in (0, 1]");
+    if (!(static_cast<btScalar>(value) > 0 && value <= 1)) rejectValue(field, value, "in (0, 1] as Bullet's scalar");
   };
   requireStiffness("ClothPatch.mechanicalStiffness", patch.mechanicalStiffness);
   requireStiffness("ClothPatch.shearStiffness", patch.shearStiffness);
@@ -137,7 +142,13 @@ void pin(btSoftBody& body, const ClothPatch& patch) {
 void setMasses(btSoftBody& body, double arealDensity) {
   const std::vector<double> areas = nodeAreas(body);
   for (std::size_t i = 0; i < areas.size(); ++i) {
-    body.m_nodes[static_cast<int>(i)].m_im = static_cast<btScalar>(1 / (arealDensity * areas[i]));
+    const double mass = arealDensity * areas[i];
+    const btScalar inverseMass = static_cast<btScalar>(1 / mass);
+    if (!(inverseMass > 0 && std::isfinite(inverseMass))) {
+      rejectValue("ClothPatch.arealDensity = " + std::to_string(arealDensity) + " on a node's area", mass,
+                  "a mass [kg] that has an inverse; where it is 0, the patch is too far from 0 for its size");
+    }
+    body.m_nodes[static_cast<int>(i)].m_im = inverseMass;
   }
 }
 
@@ -169,6 +180,7 @@ std::unique_ptr<btSoftBody> ClothPatch::build(btSoftBodyWorldInfo& worldInfo) co
 }
 
 std::vector<std::array<float, 2>> ClothPatch::textureCoordinates() const {
+  requireValidCounts(*this);
   std::vector<std::array<float, 2>> coordinates;
   coordinates.reserve(static_cast<std::size_t>(nodeCount()));
   for (int j = 0; j < rows; ++j) {

@@ -55,7 +55,7 @@ struct WETCLOTH_EXPORT ClothPatch {
   /// iterations as for any body. Throws std::invalid_argument naming the field and the value.
   std::unique_ptr<btSoftBody> build(btSoftBodyWorldInfo& worldInfo) const;
 
-  /// Texture coordinates (u, v) in [0, 1], one pair per node.
+  /// Texture coordinates (u, v) in [0, 1], one pair per node. Throws std::invalid_argument naming `columns` or `rows`.
   std::vector<std::array<float, 2>> textureCoordinates() const;
 };
 

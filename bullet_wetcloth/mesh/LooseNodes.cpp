@@ -4,6 +4,7 @@
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/mesh/HalvedTree.h"
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 
@@ -20,8 +21,10 @@ void requireValid(const std::vector<btVector3>& positions, const std::vector<btS
     rejectValue("masses.size()", masses.size(), "0, or one for each of " + std::to_string(positions.size()) + " nodes");
   }
   for (std::size_t i = 0; i < masses.size(); ++i) {
-    if (masses[i] >= 0) continue;
-    rejectValue("masses[" + std::to_string(i) + "]", static_cast<double>(masses[i]), ">= 0");
+    const bool isMass = masses[i] > 0 && std::isfinite(masses[i]) && std::isfinite(1 / masses[i]);
+    if (isMass || masses[i] == 0) continue;
+    rejectValue("masses[" + std::to_string(i) + "]", static_cast<double>(masses[i]),
+                "0, or > 0 and finite, as its inverse must be");
   }
 }
 

@@ -62,6 +62,7 @@ void ClothGuard::begin(const std::vector<Cloth>& cloths, const ClothSolver::Guar
     count += toSize(cloth.nodeCount);
     if (cloth.mesh->edgeLength > 0) edge = std::min(edge, cloth.mesh->edgeLength);
   }
+  if (std::isinf(edge)) edge = 0;  // all faces are points
   m_nodes.resize(count);
   m_nodes.setBodies(cloths.back().mesh->isOfBodies ? m_first.back() : count);
   m_edge = static_cast<btScalar>(edge);

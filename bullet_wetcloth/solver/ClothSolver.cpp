@@ -36,6 +36,7 @@ void requireValid(const ClothSolver::Parameters& parameters) {
     rejectValue("ClothSolver.tethers", parameters.tethers, "in [0, 8]");
   }
   if (!(parameters.tetherScale >= 1)) rejectValue("ClothSolver.tetherScale", parameters.tetherScale, ">= 1");
+  requireFiniteScalar("ClothSolver.tetherScale", parameters.tetherScale);
   if (!parameters.guard) return;
   requireNotNegative("ClothSolver.guard.thickness", parameters.guard->thickness);
   requireNotNegative("ClothSolver.guard.friction", parameters.guard->friction);

@@ -26,6 +26,7 @@ constexpr btScalar kNoLink = std::numeric_limits<btScalar>::infinity();
 constexpr btScalar kLeastSoftness = btScalar(1e-18);
 // A shorter link is one of this length [m].
 constexpr btScalar kLeastLength = btScalar(1e-5);
+constexpr btScalar kMostPerStepSquared = std::numeric_limits<btScalar>::max();
 
 // Families of links in an order in which none sweeps along the cloth: first those of every other row, or column. Those
 // that lead from one tile to the next come last.
@@ -61,12 +62,16 @@ Family familyOf(const GridLink& link, int to, const NodeSlots::Grid& grid) {
 // 4 / 5 (q^2 - 1) / ((q + 1)^2 - 4 / 5): to 6e-5 between 0.8 and 1.3 times the length, to 4e-2 up to three times, and
 // no root and no division by a length of 0.
 constexpr btScalar kPade = btScalar(0.8);
+// Of q: its square is a number, and what it does is the same from far below on.
+constexpr btScalar kMostStretchSquared = btScalar(1e15);
 
 template <class Lanes>
 WETCLOTH_INLINE Lanes pull(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& perRestSquared,
                            const Lanes& perStretch, const Lanes& unfelt) {
   const Lanes one = everywhere<Lanes>(1);
-  const Lanes q = (x * x + y * y + z * z) * perRestSquared;
+  const Lanes most = everywhere<Lanes>(kMostStretchSquared);
+  const Lanes stretched = (x * x + y * y + z * z) * perRestSquared;
+  const Lanes q = choose(stretched < most, stretched, most);
   const Lanes above = q + one;
   const Lanes off = (q - one) * above;
   const Lanes felt = choose(off * off > unfelt * perRestSquared, off, everywhere<Lanes>(0));
@@ -330,10 +335,10 @@ void PackedLinks::prepare(const LinkedNodes& nodes, btScalar h, btScalar roundin
 
 void PackedLinks::prepareLength(btScalar h) {
   m_h = h;
-  const btScalar perStepSquared = static_cast<btScalar>(passes()) / (h * h);
+  const btScalar perStepSquared = std::min(static_cast<btScalar>(passes()) / (h * h), kMostPerStepSquared);
   for (std::size_t k = 0; k < m_restLength.size(); ++k) {
     const btScalar length = std::max(m_restLength[k], kLeastLength);
-    m_perRestSquared[k] = 1 / (length * length);
+    m_perRestSquared[k] = m_compliance[k] == kNoLink ? 0 : 1 / (length * length);
     m_softness[k] = std::max(m_compliance[k] * perStepSquared, kLeastSoftness);
   }
 }

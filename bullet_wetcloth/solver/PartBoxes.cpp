@@ -254,7 +254,7 @@ struct PartBoxes::Finder {
     const SpreadBox<Lanes> spread(box);
     for (const Block* block = blocks.begin; block != blocks.end; ++block) {
       if (!overlap(box, block->all)) continue;
-      const unsigned bits = spread.overlapping(*block);
+      const unsigned bits = spread.overlapping(*block) & ((1u << block->count) - 1);  // a box may be without end
       chosen[count] = {block, bits};
       count += bits != 0 ? 1 : 0;
     }

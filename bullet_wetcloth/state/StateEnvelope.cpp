@@ -68,6 +68,14 @@ void requireFits(const Header& header, std::uint32_t worldKind) {
   requireSame("kind of world (btDynamicsWorldType)", header.worldKind, wanted.worldKind);
 }
 
+// A stream may have been told to throw; what it has read is in its gcount() all the same.
+void readInto(std::istream& stream, void* bytes, std::size_t size) {
+  try {
+    stream.read(static_cast<char*>(bytes), static_cast<std::streamsize>(size));
+  } catch (const std::ios_base::failure&) {
+  }
+}
+
 [[noreturn]] void failTruncated(std::uint64_t found, std::uint64_t wanted) {
   throw StateError("the saved state is cut off: " + std::to_string(found) + " bytes of " + std::to_string(wanted));
 }
@@ -80,7 +88,7 @@ std::vector<unsigned char> readBytes(std::istream& stream, std::uint64_t length)
     const std::size_t before = bytes.size();
     const auto piece = static_cast<std::size_t>(std::min<std::uint64_t>(kPiece, length - before));
     bytes.resize(before + piece);
-    stream.read(reinterpret_cast<char*>(bytes.data() + before), static_cast<std::streamsize>(piece));
+    readInto(stream, bytes.data() + before, piece);
     const auto found = static_cast<std::uint64_t>(stream.gcount());
     if (found < piece) failTruncated(sizeof(Header) + before + found, sizeof(Header) + length);
   }
@@ -93,14 +101,19 @@ void StateEnvelope::write(std::ostream& stream, std::uint32_t worldKind, const s
   Header header = headerFor(worldKind);
   header.length = state.size();
   header.hash = hashOf(header, state);
-  stream.write(reinterpret_cast<const char*>(&header), sizeof header);
-  stream.write(reinterpret_cast<const char*>(state.data()), static_cast<std::streamsize>(state.size()));
-  if (!stream) throw StateError("the state could not be written to the stream");
+  bool isWritten = true;
+  try {
+    stream.write(reinterpret_cast<const char*>(&header), sizeof header);
+    stream.write(reinterpret_cast<const char*>(state.data()), static_cast<std::streamsize>(state.size()));
+  } catch (const std::ios_base::failure&) {
+    isWritten = false;
+  }
+  if (!isWritten || !stream) throw StateError("the state could not be written to the stream");
 }
 
 std::vector<unsigned char> StateEnvelope::read(std::istream& stream, std::uint32_t worldKind) {
   Header header = {};
-  stream.read(reinterpret_cast<char*>(&header), sizeof header);
+  readInto(stream, &header, sizeof header);
   const auto found = static_cast<std::size_t>(stream.gcount());
   const std::size_t known = std::min(found, sizeof kMark);
   if (known == 0 || std::memcmp(header.mark, kMark, known) != 0) {

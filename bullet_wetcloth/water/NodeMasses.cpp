@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
@@ -105,7 +106,9 @@ bool NodeMasses::writeNodes(Water& water) {
     }
     if (node.m_im == 0) continue;
     mixMomentum(node, water, i);
-    const btScalar rounded = static_cast<btScalar>(1 / water.totalMass(i));
+    // However much water it is, it does not pin the node.
+    const btScalar rounded =
+        std::max(static_cast<btScalar>(1 / water.totalMass(i)), std::numeric_limits<btScalar>::min());
     changed = changed || rounded != node.m_im;
     node.m_im = m_inverseMass[i] = rounded;
   }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace wetcloth {
@@ -141,7 +142,9 @@ void Water::sumDryMasses() {
 
 void Water::setCapacities() {
   m_capacity.resize(m_dryMass.size());
-  for (std::size_t i = 0; i < m_capacity.size(); ++i) m_capacity[i] = capacityRatio(fabric(i)) * m_dryMass[i];
+  for (std::size_t i = 0; i < m_capacity.size(); ++i) {
+    m_capacity[i] = std::max(capacityRatio(fabric(i)) * m_dryMass[i], std::numeric_limits<double>::min());
+  }
 }
 
 void Water::setHeld(const std::vector<double>& held) {

@@ -224,5 +224,14 @@ TEST(SaturationColour, DarkensSteadilyAndEndsAtItsEnds) {
   EXPECT_EQ(saturationColour(std::numeric_limits<double>::quiet_NaN()).r, saturationColour(0).r);
 }
 
+TEST(DebugDraw, RefusesALengthThatIsNone) {
+  ClothScene scene(WorldKind::softRigid, btVector3(0, 0, 0), levelPatch(5, 1));
+  RecordingDrawer drawer;
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(wetcloth::debugDraw(scene.wet(), drawer, bad), std::invalid_argument);
+    EXPECT_THROW(wetcloth::drawWind(scene.cloth(), drawer, 0, bad), std::invalid_argument);
+  }
+}
+
 }  // namespace
 }  // namespace wetcloth_test::debug_draw_test

@@ -67,6 +67,8 @@ TEST(DropsBadInput, NamesTheFieldOfASpout) {
     EXPECT_TRUE(
         begins(refusalOfPour([&](auto& p) { p.position = btVector3(0, btScalar(kNaN), 0); }), "pours[0].position.y"));
   }
+  EXPECT_EQ(refusalOfPour([](auto& p) { p.halfAngle = 1.57079; }), "");
+  EXPECT_TRUE(begins(refusalOfPour([](auto& p) { p.halfAngle = 1.5708; }), "pours[0].halfAngle = "));
   EXPECT_TRUE(begins(refusalOfPour([](auto& p) { p.velocity.setX(btScalar(kInfinity)); }), "pours[0].velocity.x"));
   EXPECT_TRUE(begins(refusalOfPour([](auto& p) { p.start = kNaN; }), "pours[0].start = "));
   EXPECT_TRUE(begins(refusalOfPour([](auto& p) { p.stop = -1; }), "pours[0].stop = "));
@@ -251,6 +253,48 @@ TEST(DropsInTheirWorld, ACallbackThatThrowsIsAskedNoMore) {
   EXPECT_EQ(asked, 1);
   EXPECT_NE(said.find("spilt"), std::string::npos);
   EXPECT_GT(scene.drops.landedOnCloth(), 100);
+}
+
+TEST(DropsInTheirWorld, WhateverIsThrownDoesNotTravelThroughTheStep) {
+  Drops::Parameters parameters;
+  parameters.onLanding = [](const wetcloth::Landing&) { throw 3; };
+  DropsScene scene(parameters);
+  std::string said;
+  scene.scene().wet().setLog([&](const std::string& message) {
+    said += message + "\n";
+    throw std::runtime_error("the log is full");
+  });
+  Pour pour;
+  pour.position = btVector3(0, btScalar(0.3), 0);
+  scene.drops.add(pour);
+  pour.move = [](Pour&, double time) {
+    if (time > 0.3) throw 7;
+  };
+  scene.drops.add(pour);
+  EXPECT_NO_THROW(scene.step(120));
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2) << said;
+  EXPECT_GT(scene.drops.landedOnCloth(), 100);
+}
+
+// What is in the air falls on, and the spout that gave it goes on.
+TEST(DropsInTheirWorld, AWindThatThrowsIsStillAndNoSpoutIsBlamed) {
+  Drops::Parameters parameters;
+  parameters.wind = [](const btVector3&, double time) -> btVector3 {
+    if (time > 0.3) throw std::runtime_error("no forecast");
+    return btVector3(0, 0, 0);
+  };
+  DropsScene scene(parameters);
+  std::string said;
+  scene.scene().wet().setLog([&](const std::string& message) { said += message + "\n"; });
+  Pour pour;
+  pour.position = btVector3(0, btScalar(0.3), 0);
+  scene.drops.add(pour);
+  scene.step(60);
+  const long long before = scene.drops.landedOnCloth();
+  EXPECT_NO_THROW(scene.step(60));
+  EXPECT_NE(said.find("no forecast"), std::string::npos) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  EXPECT_GT(scene.drops.landedOnCloth(), before + 50);
 }
 
 }  // namespace

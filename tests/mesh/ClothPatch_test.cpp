@@ -295,8 +295,20 @@ TEST(ClothPatchInput, EachFieldIsNamedWithItsValue) {
   refused("edgeV", [=](ClothPatch& p) { p.edgeV.setZ(nan); });
   refused("edgeV", [](ClothPatch& p) { p.edgeV = btScalar(2) * p.edgeU; });
   refused("edge", [](ClothPatch& p) { p.edgeU = btVector3(0, 0, 0); });
+  for (const double extreme : {1e-300, 1e300}) {  // masses without an inverse, at least in float32
+    if (sizeof(btScalar) == 4) refused("arealDensity", [=](ClothPatch& p) { p.arealDensity = extreme; });
+  }
+  if (sizeof(btScalar) == 4) refused("mechanicalStiffness", [](ClothPatch& p) { p.mechanicalStiffness = 1e-300; });
+  refused("arealDensity", [](ClothPatch& p) {  // there is no room between its nodes
+    p.origin = btVector3(1, 1, 1) * (sizeof(btScalar) == 4 ? btScalar(1e8) : btScalar(1e17));
+  });
   refused("pinnedNodes", [](ClothPatch& p) { p.pinnedNodes = {3, 16}; });
   refused("pinnedNodes", [](ClothPatch& p) { p.pinnedNodes = {-1}; });
+  const auto refusedCoordinates = [](int columns, int rows) {
+    return rejection([&] { static_cast<void>(sized(columns, rows).textureCoordinates()); });
+  };
+  EXPECT_NE(refusedCoordinates(1, 4).find("ClothPatch.columns = 1"), std::string::npos);
+  EXPECT_NE(refusedCoordinates(4, -3).find("ClothPatch.rows = -3"), std::string::npos);
 }
 
 }  // namespace

@@ -123,6 +123,11 @@ TEST(LooseNodes, RefuseWhatIsNoNode) {
   EXPECT_EQ(complaint(two, {}), "");
   EXPECT_NE(complaint(two, {1}).find("masses.size() = 1"), std::string::npos) << complaint(two, {1});
   EXPECT_NE(complaint(two, {1, -1}).find("masses[1] = -1"), std::string::npos) << complaint(two, {1, -1});
+  const btScalar infinity = std::numeric_limits<btScalar>::infinity();
+  EXPECT_NE(complaint(two, {1, infinity}).find("masses[1] = inf"), std::string::npos) << complaint(two, {1, infinity});
+  const btScalar none = std::numeric_limits<btScalar>::denorm_min();  // its inverse is infinite
+  EXPECT_NE(complaint(two, {none, 1}).find("masses[0] = "), std::string::npos);
+  EXPECT_EQ(complaint(two, {0, 1}), "") << "0 pins";
   const btVector3 nowhere(0, std::numeric_limits<btScalar>::quiet_NaN(), 0);
   EXPECT_NE(complaint({two[0], nowhere}, {}).find("positions[1] = not finite"), std::string::npos);
 }

@@ -183,5 +183,23 @@ TEST(ClothGuardBadStarts, WhatTouchesRightBesideAPinThrowsNothingAway) {
   EXPECT_LT(largestSpeed(body), 0.1);
 }
 
+// All nodes at one place: no edge has a length, and what the guard reckons in edges is 0.
+TEST(ClothGuardBadStarts, FacesWithoutLengthAreStepped) {
+  for (const std::size_t nodes : {3u, 4u, 9u}) {
+    GuardScene scene;
+    scene.addFloor(-0.5);
+    std::vector<std::array<int, 3>> faces;
+    for (int k = 0; k + 2 < int(nodes); ++k) faces.push_back({k, k + 1, k + 2});
+    btSoftBody& body = scene.add(linkedTriangles(std::vector<btVector3>(nodes, btVector3(0, 0, 0)), faces));
+    btSoftBody& beside = scene.add(levelSheet(5, 0.5, btVector3(2, 0, 0)));
+    scene.step(5);
+    EXPECT_TRUE(isFinite(body));
+    EXPECT_TRUE(isFinite(beside));
+    scene.forgetLast();
+    scene.step(30);
+    EXPECT_TRUE(isFinite(body));
+  }
+}
+
 }  // namespace
 }  // namespace wetcloth_test::cloth_guard_bad_starts_test

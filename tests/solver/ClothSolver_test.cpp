@@ -297,6 +297,30 @@ TEST(ClothSolver, AClothSwingsAlikeFarFromTheOrigin) {
   EXPECT_NEAR(lowest(131072), near, 0.02 * -near);  // 2^17 m: the patch's places there are multiples of 1/64 m
 }
 
+// Where there is no link in a run of them, places differ by all of the way.
+TEST(ClothSolver, AClothIsPutFarAwayAndThrown) {
+  SolverScene scene;
+  btSoftBody& body = scene.add(levelPatch(5, 1));
+  scene.step(3);
+  for (int k = 0; k < body.m_nodes.size(); ++k) body.m_nodes[k].m_x += btVector3(btScalar(1e5), 0, 0);
+  scene.step(5);
+  EXPECT_TRUE(isFinite(body));
+  EXPECT_EQ(scene.solver().reasonNotTaken(body), "");
+  body.addVelocity(btVector3(0, btScalar(3e6), 0));
+  scene.step(5);
+  EXPECT_TRUE(isFinite(body));
+}
+
+TEST(ClothSolver, ALinkWithoutLengthIsPulledToAnyLength) {
+  SolverScene scene;
+  btSoftBody& body = scene.add(levelPatch(5, 1));
+  body.m_links[0].m_rl = 0;
+  scene.step(3);
+  body.m_links[0].m_n[0]->m_x += btVector3(0, btScalar(1e6), 0);
+  scene.step(5);
+  EXPECT_TRUE(isFinite(body));
+}
+
 TEST(ClothSolver, AClothThatIsNotFiniteIsToldAndLeftAlone) {
   SolverScene scene;
   btSoftBody& bad = scene.add(hangingPatch(5));
@@ -376,6 +400,9 @@ TEST(ClothSolver, StepsOfAnyLength) {
   for (const double dt : {0.1, 1e-4, 0.1, 1.0 / 60}) scene.step(3, dt);
   EXPECT_TRUE(std::isfinite(largestSpeed(body)));
   EXPECT_LT(stretchOf(body).largest, 2);
+  body.m_cfg.timescale = btScalar(1e-25);  // its square is 0 in float32
+  scene.step(3);
+  EXPECT_TRUE(isFinite(body));
   body.m_cfg.timescale = 0;
   const btVector3 place = body.m_nodes[2].m_x;
   scene.step(3);
@@ -403,6 +430,12 @@ TEST(ClothSolver, RefusesBadParameters) {
   tethered.tetherScale = 0.9;
   EXPECT_NE(rejection([&] { wetcloth::ClothSolver solver(tethered); }).find("ClothSolver.tetherScale = 0.9"),
             std::string::npos);
+  for (const double endless : {std::numeric_limits<double>::infinity(), 1e300}) {
+    if (std::isfinite(btScalar(endless))) continue;
+    tethered.tetherScale = endless;
+    EXPECT_NE(rejection([&] { wetcloth::ClothSolver solver(tethered); }).find("ClothSolver.tetherScale = "),
+              std::string::npos);
+  }
   EXPECT_NE(
       rejection([&] { static_cast<void>(wetcloth::ClothSolver(smallSteps(0))); }).find("ClothSolver.smallSteps = 0"),
       std::string::npos);

@@ -135,5 +135,20 @@ TEST_F(StateRefusal, OfAStreamThatCannotBeWritten) {
   EXPECT_THROW(m_scene.wet().save(stream), wetcloth::StateError);
 }
 
+// A stream may have been told to throw: what is said is the same.
+TEST_F(StateRefusal, OfAStreamThatThrows) {
+  const std::string before = m_scene.saved();
+  for (const std::size_t length : {std::size_t(0), m_state.size() / 2}) {
+    std::istringstream stream(m_state.substr(0, length));
+    stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+    EXPECT_THROW(m_scene.wet().restore(stream), wetcloth::StateError);
+    EXPECT_TRUE(m_scene.saved() == before);
+  }
+  std::ostream nowhere(nullptr);
+  nowhere.clear();
+  nowhere.exceptions(std::ios::failbit);
+  EXPECT_THROW(m_scene.wet().save(nowhere), wetcloth::StateError);
+}
+
 }  // namespace
 }  // namespace wetcloth_test::refusal_test
