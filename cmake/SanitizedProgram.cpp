@@ -10,4 +10,7 @@ int dlclose(void*) { return 0; }
 /// assimp does not give back all that it has read of a file that it then refuses.
 const char* __lsan_default_suppressions() { return "leak:libassimp\n"; }
 const char* __lsan_default_options() { return "print_suppressions=0"; }
+
+/// Mesa's drawing by the processor has threads of its own, whose locks the sanitizer does not see.
+const char* __tsan_default_suppressions() { return "race:swrast_dri\nrace:libgallium\nrace:libLLVM\n"; }
 }

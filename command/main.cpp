@@ -18,6 +18,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <iostream>
 
 namespace command {
 namespace {
@@ -59,15 +60,24 @@ void runProgram(int count, char** arguments) {
   command->run();
 }
 
+/// What was printed may be in a buffer still.
+void requirePrinted() {
+  std::cout.flush();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout) {
+    throw RunError("wetcloth: standard output could not be written");
+  }
+}
+
 }  // namespace
 }  // namespace command
 
 int main(int count, char** arguments) {
   try {
     command::runProgram(count, arguments);
+    command::requirePrinted();
     return 0;
   } catch (const command::InputError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    std::fprintf(stderr, "%s\n", command::onOneLine(error.what()).c_str());
     return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", command::onOneLine(error.what()).c_str());

@@ -5,6 +5,7 @@
 #include "command/ccd/CcdReport.h"
 #include "command/ccd/QueryFile.h"
 #include "command/cli/CommonOptions.h"
+#include "command/cli/DistinctFiles.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 
@@ -33,6 +34,7 @@ void checkQueries(const CcdOptions& options) {
   if (options.passes < 1 || options.passes > 100) {
     throw InputError("wetcloth: --passes = " + std::to_string(options.passes) + ": must be 1 to 100");
   }
+  requireDistinctFiles({{"the queries", options.file}, {"--json", options.json}});
   const std::vector<KnownQuery> queries = readQueries(options.file);
   JsonOutput output(options.json);
   CcdReport report(method, options.tolerance, options.passes);

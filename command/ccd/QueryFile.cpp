@@ -35,8 +35,9 @@ class Lines {
  public:
   Lines(const std::string& file, std::string_view text) : m_file(file), m_rest(text) {}
 
+  /// Lines with nothing in them at the end are none.
   bool next(std::vector<std::string_view>& fields) {
-    if (m_rest.empty()) return false;
+    if (m_rest.find_first_not_of("\r\n") == std::string_view::npos) return false;
     ++m_number;
     const std::size_t end = m_rest.find('\n');
     std::string_view line = m_rest.substr(0, end);
@@ -123,8 +124,10 @@ std::string textOf(const std::string& file) {
 
 std::vector<KnownQuery> readQueries(const std::string& file) {
   const std::string text = textOf(file);
+  constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
+  const std::size_t start = text.compare(0, byteOrderMark.size(), byteOrderMark) == 0 ? byteOrderMark.size() : 0;
   const std::string name = onOneLine(file);
-  Lines lines(name, text);
+  Lines lines(name, std::string_view(text).substr(start));
   std::vector<std::string_view> fields;
   if (!lines.next(fields)) throw InputError(name + ": is empty");
   for (std::size_t column = 0; column < fields.size(); ++column) {

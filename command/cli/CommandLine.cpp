@@ -23,6 +23,17 @@ void requireKnownCommand(const std::vector<Command>& commands, int count, char**
                    joined(names));
 }
 
+/// Most often a variable of a shell that was never set: as if nothing had been said would be a surprise.
+void requireNoneEmpty(int count, char** arguments) {
+  for (int i = 1; i < count; ++i) {
+    const std::string word = arguments[i];
+    const bool isOption = word.rfind("--", 0) == 0;
+    if (!word.empty() && !(isOption && word.back() == '=')) continue;
+    const std::string before = i > 1 && word.empty() ? ", after " + std::string(arguments[i - 1]) : "";
+    throw InputError("wetcloth: argument " + std::to_string(i) + " = \"" + word + "\"" + before + ": is empty");
+  }
+}
+
 /// CLI11 names what it does not know, but not what was meant.
 void requireKnownOptions(const CLI::App& command, int count, char** arguments) {
   std::vector<std::string> names;
@@ -53,6 +64,7 @@ CommandLine::CommandLine(const std::vector<AddCommand>& commands, const std::str
 CommandLine::~CommandLine() = default;
 
 const Command* CommandLine::read(int count, char** arguments) {
+  requireNoneEmpty(count, arguments);
   requireKnownCommand(m_commands, count, arguments);
   try {
     if (arguments[1][0] != '-') requireKnownOptions(*m_app->get_subcommand(arguments[1]), count, arguments);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -18,10 +19,22 @@ class RunError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The text on one line: line breaks and tabs become spaces.
-inline std::string onOneLine(std::string text) {
+/// The text without what follows these bytes, and without half a character (UTF-8) at its end.
+inline std::string shortened(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  const auto continues = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80; };
+  while (most > 0 && continues(most)) --most;
+  return text.substr(0, most) + "...";
+}
+
+/// The text on one line that a screen can bear: what controls a terminal, line breaks and tabs too, becomes spaces, and
+/// what is longer than anybody reads is left out.
+inline std::string onOneLine(const std::string& whole) {
+  constexpr std::size_t longest = 4000;
+  std::string text = shortened(whole, longest);
   for (char& character : text) {
-    if (character == '\n' || character == '\r' || character == '\t') character = ' ';
+    const auto code = static_cast<unsigned char>(character);
+    if (code < ' ' || code == 0x7F) character = ' ';
   }
   while (!text.empty() && text.back() == ' ') text.pop_back();
   return text;

@@ -10,29 +10,36 @@
 #include <utility>
 
 namespace command {
+namespace {
 
-JsonOutput::JsonOutput(std::string target) : m_target(std::move(target)) {
-  if (!isFile()) return;
+std::string optionFor(const std::string& target) { return "wetcloth: --json = \"" + target + "\""; }
+
+bool isDeviceOrPipe(const std::string& path) {
   std::error_code ignored;
-  const bool isNew = !std::filesystem::exists(m_target, ignored);
-  std::ofstream file(m_target, std::ios::app);
-  if (!file) throw InputError("wetcloth: --json = \"" + m_target + "\": must be a file that can be written, or -");
-  m_removeUnlessWritten = isNew;
+  return std::filesystem::is_other(std::filesystem::status(path, ignored)) ||
+         std::filesystem::is_fifo(std::filesystem::status(path, ignored)) ||
+         std::filesystem::is_character_file(std::filesystem::status(path, ignored));
 }
 
-JsonOutput::~JsonOutput() {
-  std::error_code ignored;
-  if (m_removeUnlessWritten) std::filesystem::remove(m_target, ignored);
+}  // namespace
+
+JsonOutput::JsonOutput(std::string target) : m_target(std::move(target)) {
+  if (m_target.empty() || ownsStandardOutput() || isDeviceOrPipe(m_target)) return;
+  m_file.emplace(optionFor(m_target), m_target, StagedOutput::Kind::file);
 }
 
 void JsonOutput::write(const nlohmann::ordered_json& json) {
+  if (m_target.empty()) return;
   const std::string text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-  if (ownsStandardOutput()) std::cout << text << std::flush;
-  if (!isFile()) return;
-  m_removeUnlessWritten = false;
-  std::ofstream file(m_target, std::ios::trunc);
+  if (ownsStandardOutput()) {
+    std::cout << text << std::flush;
+    return;
+  }
+  std::ofstream file(m_file ? m_file->path() : m_target, std::ios::trunc);
   file << text << std::flush;
-  if (!file) throw RunError("wetcloth: --json = \"" + m_target + "\": could not be written");
+  if (!file) throw RunError(optionFor(m_target) + ": could not be written");
+  file.close();
+  if (m_file) m_file->commit();
 }
 
 }  // namespace command

@@ -18,10 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Without a slash at the end, which would hide the name.
+/// Without a slash at the end, which would hide the name. Where that is a link, what it leads to.
 fs::path named(const std::string& path) {
-  const fs::path whole = fs::path(path).lexically_normal();
-  return whole.has_filename() ? whole : whole.parent_path();
+  fs::path whole = fs::path(path).lexically_normal();
+  if (!whole.has_filename()) whole = whole.parent_path();
+  std::error_code failed;
+  if (!fs::is_symlink(whole, failed)) return whole;
+  const fs::path target = fs::weakly_canonical(whole, failed);
+  return failed ? whole : target;
 }
 
 }  // namespace
@@ -47,6 +51,9 @@ void StagedOutput::requirePlace(Kind kind) const {
   }
   const bool isFolder = fs::is_directory(m_final, failed);
   if (kind == Kind::file && isFolder) throw InputError(m_option + ": must be a file, not a folder");
+  if (kind == Kind::file && fs::exists(m_final, failed) && !fs::is_regular_file(m_final, failed)) {
+    throw InputError(m_option + ": must be a file, not a device or a pipe, which would be replaced by one");
+  }
   if (kind == Kind::file || !fs::exists(m_final, failed)) return;
   if (!isFolder) throw InputError(m_option + ": must be a folder, not a file");
   if (!fs::is_empty(m_final, failed)) {

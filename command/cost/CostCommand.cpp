@@ -2,6 +2,7 @@
 #include "command/cost/CostCommand.h"
 
 #include "command/cli/CommonOptions.h"
+#include "command/cli/DistinctFiles.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/cli/Progress.h"
@@ -52,6 +53,7 @@ void measureCost(const CostOptions& options) {
   if (options.steps && (*options.steps < 1 || *options.steps > 100000)) {
     throw InputError("wetcloth: --steps = " + std::to_string(*options.steps) + ": must be 1 to 100000");
   }
+  requireDistinctFiles({{"the scene", options.scene}, {"--json", options.json}});
   const Scene scene = sceneOf(options);
   JsonOutput output(options.json);
   const auto start = std::chrono::steady_clock::now();

@@ -5,6 +5,7 @@
 #include "command/fit/FitWarnings.h"
 
 #include "command/cli/CommonOptions.h"
+#include "command/cli/DistinctFiles.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/plot/PlotFiles.h"
@@ -59,6 +60,7 @@ void requireConverged(const std::string& file, const Fit& fit) {
 }
 
 void fitToFile(const FitOptions& options) {
+  command::requireDistinctFiles({{"the measurements", options.file}, {"--json", options.json}});
   command::JsonOutput output(options.json);
   const command::MeasuredTable table(options.file);
   const Task task = command::valueOf(taskNames(), options.of)(table, wetcloth::Fabric::byName(options.fabric));

@@ -2,6 +2,7 @@
 #include "command/render/ExportCommand.h"
 
 #include "command/cli/CommonOptions.h"
+#include "command/cli/DistinctFiles.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/cli/StagedOutput.h"
@@ -131,6 +132,7 @@ void exportScene(const ExportOptions& options) {
   const Scene scene = prepareScene(options).scene;
   JsonOutput json(options.json);
   StagedOutput output(option, options.out, format.kind);
+  requireDistinctFiles({{"the scene", options.scene}, {"--json", options.json}, {"--out", options.out}});
   const pictures::FrameSequence sequence = sampleRun(scene, options.framesPerSecond);
   write(format, sequence, option, output);
   const nlohmann::ordered_json result = jsonOf(scene, options, sequence);

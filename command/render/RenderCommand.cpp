@@ -2,6 +2,7 @@
 #include "command/render/RenderCommand.h"
 
 #include "command/cli/CommonOptions.h"
+#include "command/cli/DistinctFiles.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/cli/NearestWord.h"
@@ -148,7 +149,10 @@ std::vector<double> timesOf(const RenderOptions& options, const Product& product
 void aimCamera(const RenderOptions& options, Scene& scene) {
   btVector3& direction = scene.camera.direction;
   if (!options.view.empty()) {
-    direction = btVector3(btScalar(options.view[0]), btScalar(options.view[1]), btScalar(options.view[2])).normalized();
+    const std::vector<double>& view = options.view;
+    const double largest = std::max({std::abs(view[0]), std::abs(view[1]), std::abs(view[2])});
+    const auto part = [&](std::size_t axis) { return btScalar(view[axis] / largest); };
+    direction = btVector3(part(0), part(1), part(2)).normalized();
   }
   direction = direction.rotate(scene.up(), btScalar(options.orbit * 3.14159265358979 / 180));
   if (options.fieldOfView) scene.camera.fieldOfView = *options.fieldOfView;
@@ -210,6 +214,7 @@ void printSummary(const RenderOptions& options, const RenderJob& job, const Rend
 void renderScene(const RenderOptions& options) {
   const Product& product = productOf(options);
   requireOptions(options, product);
+  requireDistinctFiles({{"the scene", options.scene}, {"--json", options.json}, {"--out", options.out}});
   const PictureSize size = readSize(options.size.empty() ? product.size : options.size, product.hasEvenSize);
   Scene scene = prepareScene(options).scene;
   requireTimes(options, scene);

@@ -2,6 +2,7 @@
 #include "command/run/FrameWriter.h"
 
 #include "command/cli/Errors.h"
+#include "command/cli/StagedOutput.h"
 #include "command/run/SvgFrame.h"
 
 #include <algorithm>
@@ -52,9 +53,13 @@ void FrameWriter::write(const SceneWorld& world) const {
     char name[32];
     std::snprintf(name, sizeof name, "frame_%04d.svg", i);
     const std::filesystem::path path = std::filesystem::path(m_directory) / name;
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
+    const std::string option = "wetcloth: --frames = \"" + path.string() + "\"";
+    StagedOutput output(option, path.string(), StagedOutput::Kind::file);
+    std::ofstream file(output.path(), std::ios::binary | std::ios::trunc);
     file << svgFrame(world, camera, m_shots[static_cast<std::size_t>(i)]) << std::flush;
-    if (!file) throw RunError("wetcloth: --frames = \"" + path.string() + "\": could not be written");
+    if (!file) throw RunError(option + ": could not be written");
+    file.close();
+    output.commit();
   }
 }
 

@@ -2,6 +2,7 @@
 #include "command/run/RunCommand.h"
 
 #include "command/cli/CommonOptions.h"
+#include "command/cli/DistinctFiles.h"
 #include "command/cli/Errors.h"
 #include "command/cli/JsonOutput.h"
 #include "command/cli/Progress.h"
@@ -122,6 +123,8 @@ void resume(Run& run, const std::string& path, const nlohmann::ordered_json& ide
   const Checkpoint checkpoint = readCheckpoint(path, identity);
   try {
     run.restore(checkpoint);
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(onOneLine("wetcloth: --resume = \"" + path + "\": is no checkpoint of this version of wetcloth"));
   } catch (const std::exception& error) {
     throw InputError(onOneLine("wetcloth: --resume = \"" + path + "\": " + error.what()));
   }
@@ -160,6 +163,10 @@ void requireOptions(const RunOptions& options) {
 
 void runScene(const RunOptions& options) {
   requireOptions(options);
+  requireDistinctFiles({{"the scene", options.scene},
+                        {"--json", options.json},
+                        {"--checkpoint", options.checkpoint},
+                        {"--small-steps", options.smallSteps}});
   const PreparedScene prepared = prepareScene(options);
   const Scene& scene = prepared.scene;
   JsonOutput output(options.json);

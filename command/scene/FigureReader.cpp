@@ -118,7 +118,8 @@ std::vector<std::pair<const Joint*, Hull>> readHulls(const JsonCursor& cursor, c
 
 SkeletonMotion readMotionFile(const JsonCursor& name, const Placement& placement) {
   const std::string file = fileBeside(name);
-  if (!std::filesystem::is_regular_file(file)) name.complain("no such file: " + file);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) name.complain("no such file: " + file);
   try {
     return readSkeletonMotion(file, placement);
   } catch (const std::invalid_argument& error) {

@@ -30,7 +30,7 @@ std::string escapedKey(const std::string& key) {
 std::string shown(const Json& value) {
   constexpr std::size_t longest = 60;
   const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  return text.size() <= longest ? text : text.substr(0, longest) + "...";
+  return shortened(text, longest);
 }
 
 std::string place(const std::string& text, std::size_t offset) {
@@ -50,10 +50,14 @@ std::string reasonOf(const nlohmann::json::parse_error& error) {
   return start == std::string::npos ? text : text.substr(start + 2);
 }
 
+/// Deeper ones would take the stack of what goes through them.
+constexpr int deepest = 100;
+
 /// JSON allows a key twice and keeps the last: in a scene that is a slip, and a silent one.
-class DuplicateKeys {
+class Refusals {
  public:
-  bool operator()(int, Json::parse_event_t event, Json& parsed) {
+  bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
+    if (depth > deepest) throw std::invalid_argument("is nested deeper than 100 times");
     if (event == Json::parse_event_t::object_start) m_open.emplace_back();
     if (event == Json::parse_event_t::object_end) m_open.pop_back();
     if (event == Json::parse_event_t::key && !m_open.back().insert(parsed.get<std::string>()).second) {
@@ -72,12 +76,13 @@ Json loadJson(const std::string& file) {
   try {
     const std::string text = readTextFile(file);
     try {
-      return Json::parse(text, DuplicateKeys());
+      return Json::parse(text, Refusals());
     } catch (const Json::parse_error& error) {
       const std::size_t offset = error.byte == 0 ? 0 : error.byte - 1;
       throw std::invalid_argument("is not JSON: " + place(text, offset) + ": " + reasonOf(error));
     } catch (const Json::out_of_range& error) {  // a number such as 1e999
-      throw std::invalid_argument("has a number that is not finite: " + std::string(error.what()));
+      const std::string reason = error.what();
+      throw std::invalid_argument("has a number that is not finite: " + reason.substr(reason.rfind(' ') + 1));
     }
   } catch (const std::invalid_argument& error) {
     throw InputError(onOneLine(file + ": " + error.what()));
@@ -170,7 +175,8 @@ std::size_t JsonCursor::indexOf(const std::string& word, const std::vector<std::
 void JsonCursor::reject(const std::string& allowed) const { complain("must be " + allowed); }
 
 void JsonCursor::complain(const std::string& complaint) const {
-  const std::string where = m_pointer.empty() ? "/" : m_pointer;
+  constexpr std::size_t longest = 300;
+  const std::string where = m_pointer.empty() ? "/" : shortened(m_pointer, longest);
   throw InputError(onOneLine(m_file + ": " + where + " = " + shown(*m_value) + ": " + complaint));
 }
 

@@ -35,7 +35,9 @@ TriangleMesh readMesh(JsonCursor cursor) {
 }
 
 std::string fileBeside(const JsonCursor& name) {
-  return (std::filesystem::path(name.file()).parent_path() / name.text()).string();
+  const std::string text = name.text();
+  if (text.empty() || text.find('\0') != std::string::npos) name.reject("the name of a file");
+  return (std::filesystem::path(name.file()).parent_path() / text).string();
 }
 
 }  // namespace command

@@ -27,7 +27,7 @@ btVector3 readDirection(const JsonCursor& cursor) {
   const btVector3 direction = readVector(cursor);
   // Shorter or longer ones have a square that float32 cannot hold.
   if (!(direction.length() > btScalar(1e-9)) || !(direction.length() < btScalar(1e9))) {
-    cursor.reject("a direction, not of length 0");
+    cursor.reject("a direction, of a length in [1e-9, 1e9]");
   }
   return direction;
 }

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <new>
 #include <set>
 #include <stdexcept>
 
@@ -213,10 +214,7 @@ std::string complaintOf(const Assimp::Importer& importer) {
   return complaint.empty() ? "has no joints: assimp finds no node in it" : complaint;
 }
 
-}  // namespace
-
-SkeletonMotion readSkeletonMotion(const std::string& file, const Placement& placement) {
-  Assimp::Importer importer;
+SkeletonMotion read(Assimp::Importer& importer, const std::string& file, const Placement& placement) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);  // no skin of its own making
   // assimp 5.2 crashes, for one, on a glTF skin without "inverseBindMatrices", which may be left out.
   if (!survivesTrial([&] { importer.ReadFile(file, 0); })) {
@@ -225,6 +223,17 @@ SkeletonMotion readSkeletonMotion(const std::string& file, const Placement& plac
   const aiScene* const scene = importer.ReadFile(file, 0);
   if (scene == nullptr || scene->mRootNode == nullptr) throw std::invalid_argument(complaintOf(importer));
   return SkeletonReader(*scene, placement).read();
+}
+
+}  // namespace
+
+SkeletonMotion readSkeletonMotion(const std::string& file, const Placement& placement) {
+  Assimp::Importer importer;
+  try {
+    return read(importer, file, placement);
+  } catch (const std::bad_alloc&) {
+    throw std::invalid_argument("says that it holds more than there is memory for");
+  }
 }
 
 }  // namespace command

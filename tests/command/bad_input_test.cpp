@@ -107,7 +107,7 @@ std::vector<BadScene> badScenes() {
       at("SpringsOutsideTheDeformableWorld", "/cloths/0/spring_stiffness_n_m", 10, {"deformable"}),
       at("RadiusZero", "/colliders/0/sphere/radius_m", 0, {"> 0"}),
       at("ColliderWithoutKind", "/colliders/0", Json::object(), {"plane, box, sphere"}),
-      at("NormalOfLengthZero", "/colliders/1/plane/normal", {0, 0, 0}, {"length 0"}),
+      at("NormalOfLengthZero", "/colliders/1/plane/normal", {0, 0, 0}, {"of a length in"}),
       {"NoWorld", [](Json& scene) { scene.erase("world"); }, {"\"world\" is missing"}},
       {"NoFabric", [](Json& scene) { cloth(scene).erase("fabric"); }, {"/cloths/0", "\"fabric\" is missing"}},
       {"NoCapacity", [](Json& scene) { fabric(scene).erase("capacity_kg_per_kg"); }, {"capacity_kg_per_kg"}},

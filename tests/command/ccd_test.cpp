@@ -134,7 +134,7 @@ TEST_P(CcdBadLine, IsRefusedWithItsPlace) {
   const TemporaryDirectory directory;
   Fields fields = apart();
   GetParam().spoil(fields);
-  const std::string file = directory.write("queries.csv", fileOf({heading(), falling(), fields}));
+  const std::string file = directory.write("queries.csv", fileOf({heading(), falling(), fields, apart()}));
   expectRefusal(ccd({file}), {file + ":3: " + GetParam().complaint});
 }
 
@@ -177,6 +177,8 @@ TEST(Ccd, EveryWayToWriteTheSameFile) {
   const std::vector<std::string> files{directory.write("plain.csv", goodText()),
                                        directory.write("windows.csv", fileOf({heading(), falling(), apart()}, "\r\n")),
                                        directory.write("no_end.csv", noLastLineEnd),
+                                       directory.write("blank_lines_at_the_end.csv", goodText() + "\r\n\n"),
+                                       directory.write("with_a_byte_order_mark.csv", "\xEF\xBB\xBF" + goodText()),
                                        directory.write("gzip_by_content.csv", gz),
                                        directory.write("plain_by_content.gz", goodText())};
   for (const std::string& file : files) {

@@ -106,6 +106,21 @@ TEST_F(Checkpoint, OfAnotherRunIsRefused) {
   expectRefusal(resume({}), {"--resume", file(), "another scene"});
 }
 
+// What a file holds that the scene names is part of the scene.
+TEST_F(Checkpoint, OfOtherCollidersIsRefused) {
+  const auto mesh = [this](const std::string& name, const std::string& height) {
+    m_directory.write(name, "v -1 0 -1\nv 1 0 -1\nv 0 0 1\nv 0 " + height + " 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
+  };
+  Json json = smallScene();
+  json["colliders"] = {{{"mesh", {{"file", "mesh.obj"}, {"scale", 0.1}}}}};
+  const std::string scene = m_directory.write("scene.json", json.dump());
+  mesh("mesh.obj", "0.3");
+  runScene(scene, {"--checkpoint", file(), "--every", "2"});
+  EXPECT_EQ(runWetcloth({"run", scene, "--resume", file()}).status, 0);
+  mesh("mesh.obj", "0.45");
+  expectRefusal(runWetcloth({"run", scene, "--resume", file()}), {"--resume", file(), "another scene"});
+}
+
 TEST_F(Checkpoint, ThatIsDamagedOrNoneIsRefused) {
   const std::string scene = m_directory.write("scene.json", smallScene().dump());
   runScene(scene, {"--checkpoint", file(), "--every", "2"});

@@ -195,7 +195,7 @@ TEST(WaterCycleBadInput, UnknownKeysAndTheNearestThatThereAre) {
 
 TEST(WaterCycleBadInput, DirectionsOfLengthZero) {
   for (const char* vector : {"rain/direction", "splash/velocity_m_s", "diffusion/warp"}) {
-    expectRefusedAt(goodScene(), effectsAt + vector, {0, 0, 0}, "must be a direction, not of length 0");
+    expectRefusedAt(goodScene(), effectsAt + vector, {0, 0, 0}, "must be a direction, of a length in ");
     expectRefusedAt(goodScene(), effectsAt + vector, {0, 1}, "must be an array of three numbers");
   }
 }
