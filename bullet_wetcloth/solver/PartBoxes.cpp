@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 
 namespace wetcloth {
 inline namespace WETCLOTH_PRECISION {
@@ -188,9 +189,11 @@ void PartBoxes::boundNode(int node) {
   const Quad start = load<Quad>(way.start.at);
   const Quad end = load<Quad>(way.end.at);
   const Quad around = splat<3>(start) + everywhere<Quad>(m_near / 2);
+  // Where a block has no part there is a box that only one without end overlaps.
+  constexpr btScalar most = std::numeric_limits<btScalar>::max();
   GuardBox& box = m_nodeBoxes[toSize(node)];
-  box.low = lesser(start, end) - around;
-  box.high = greater(start, end) + around;
+  box.low = greater(lesser(start, end) - around, everywhere<Quad>(-most));
+  box.high = lesser(greater(start, end) + around, everywhere<Quad>(most));
 }
 
 GuardBox PartBoxes::bound(std::size_t tile) {
@@ -254,7 +257,7 @@ struct PartBoxes::Finder {
     const SpreadBox<Lanes> spread(box);
     for (const Block* block = blocks.begin; block != blocks.end; ++block) {
       if (!overlap(box, block->all)) continue;
-      const unsigned bits = spread.overlapping(*block) & ((1u << block->count) - 1);  // a box may be without end
+      const unsigned bits = spread.overlapping(*block);
       chosen[count] = {block, bits};
       count += bits != 0 ? 1 : 0;
     }

@@ -58,6 +58,16 @@ bool isSolid(const std::vector<btVector3>& points) {
   return height > btScalar(1e-4) * longest.length();
 }
 
+double reachOf(const Collider& collider) {
+  const Middle middle = std::visit(FindMiddle(), collider.shape);
+  if (!collider.motion) return static_cast<double>(middle.place.length()) + middle.reach;
+  double farthest = 0;
+  for (const btVector3& place : collider.motion->places) {
+    farthest = std::max(farthest, static_cast<double>(place.length()));
+  }
+  return farthest + static_cast<double>((middle.place - collider.motion->pivot).length()) + middle.reach;
+}
+
 double fastestOf(const Collider& collider) {
   if (!collider.motion) return 0;
   const Middle middle = std::visit(FindMiddle(), collider.shape);

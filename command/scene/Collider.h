@@ -66,6 +66,8 @@ bool isSolid(const std::vector<btVector3>& points);
 
 /// Of what is no plane: where its middle is at rest.
 btVector3 middleOf(const Collider& collider);
+/// No less than how far any of its points is from 0 at any time [m]; of a plane, the nearest.
+double reachOf(const Collider& collider);
 /// No less than the speed of any of its points at any time [m/s].
 double fastestOf(const Collider& collider);
 

@@ -93,7 +93,13 @@ DropsScene readDrops(JsonCursor cursor, const Scene& scene) {
     for (const JsonCursor& pour : pours->elements()) drops.pours.push_back(readPour(pour));
   }
   if (const auto glasses = cursor.find("glasses")) {
-    for (const JsonCursor& glass : glasses->elements()) drops.glasses.push_back(readGlass(glass, scene));
+    for (const JsonCursor& glass : glasses->elements()) {
+      const DropsScene::FullGlass full = readGlass(glass, scene);
+      for (const DropsScene::FullGlass& other : drops.glasses) {
+        if (other.collider == full.collider) glass.complain("its collider is a glass already");
+      }
+      drops.glasses.push_back(full);
+    }
   }
   if (scene.water) {
     parameters.surface = wetcloth::WaterSurface();

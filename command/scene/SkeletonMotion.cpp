@@ -10,10 +10,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <fstream>
 #include <map>
 #include <new>
 #include <set>
 #include <stdexcept>
+#include <string>
 
 namespace command {
 namespace {
@@ -207,6 +210,29 @@ class SkeletonReader {
   SkeletonMotion m_motion;
 };
 
+/// assimp goes by what is in a file and knows many formats, some of which say of a few bytes that they are gigabytes.
+void requireKnownFormat(const std::string& file) {
+  constexpr std::size_t headOfGlb = 12;
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(0, stream.tellg()));
+  stream.seekg(0);
+  std::string start(4096, '\0');
+  stream.read(&start[0], static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(stream.gcount()));
+  if (start.compare(0, 4, "glTF") == 0 && start.size() >= headOfGlb) {
+    std::uint64_t claimed = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      claimed |= static_cast<std::uint64_t>(static_cast<unsigned char>(start[8 + k])) << (8 * k);
+    }
+    if (claimed <= size) return;
+    throw std::invalid_argument("is cut off: it says that it has " + std::to_string(claimed) + " bytes");
+  }
+  const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  const bool isText = first != std::string::npos;
+  if (isText && (start[first] == '{' || start.compare(first, 9, "HIERARCHY") == 0)) return;
+  throw std::invalid_argument("is neither BVH nor glTF, by how it begins");
+}
+
 /// One line; assimp may say nothing, and may take for a scene what has no node.
 std::string complaintOf(const Assimp::Importer& importer) {
   std::string complaint = importer.GetErrorString();
@@ -228,6 +254,7 @@ SkeletonMotion read(Assimp::Importer& importer, const std::string& file, const P
 }  // namespace
 
 SkeletonMotion readSkeletonMotion(const std::string& file, const Placement& placement) {
+  requireKnownFormat(file);
   Assimp::Importer importer;
   try {
     return read(importer, file, placement);

@@ -107,6 +107,14 @@ std::vector<BadScene> badScenes() {
       at("SpringsOutsideTheDeformableWorld", "/cloths/0/spring_stiffness_n_m", 10, {"deformable"}),
       at("RadiusZero", "/colliders/0/sphere/radius_m", 0, {"> 0"}),
       at("ColliderWithoutKind", "/colliders/0", Json::object(), {"plane, box, sphere"}),
+      {"ColliderLargerThanAnythingIs",
+       [](Json& scene) { scene["colliders"][0]["sphere"]["radius_m"] = 1e10; },
+       {"/colliders/0 = ", "within 1e8 m"}},
+      {"ColliderThatFliesFarAway",
+       [](Json& scene) {
+         scene["colliders"][0]["motion"] = {{"times_s", {0, 1}}, {"offsets_m", {{0, 0, 0}, {0, 3e8, 0}}}};
+       },
+       {"/colliders/0 = ", "within 1e8 m"}},
       at("NormalOfLengthZero", "/colliders/1/plane/normal", {0, 0, 0}, {"of a length in"}),
       {"NoWorld", [](Json& scene) { scene.erase("world"); }, {"\"world\" is missing"}},
       {"NoFabric", [](Json& scene) { cloth(scene).erase("fabric"); }, {"/cloths/0", "\"fabric\" is missing"}},

@@ -88,6 +88,8 @@ TEST(DropsInScenes, WhatIsBadIsNamed) {
   EXPECT_TRUE(has(refusal({{"glasses", {{{"collider", 0}, {"water_kg", 0.1}}}}}), "must be a cylinder"));
   EXPECT_TRUE(has(refusal({{"glasses", {{{"collider", 7}, {"water_kg", 0.1}}}}}), "/drops/glasses/0/collider = 7"));
   EXPECT_TRUE(has(refusal({{"glasses", {{{"collider", 1}, {"water_kg", 1}}}}}), "/drops/glasses/0/water_kg = 1"));
+  const nlohmann::json full = {{"collider", 1}, {"water_kg", 0.1}};
+  EXPECT_TRUE(has(refusal({{"glasses", {full, full}}}), "/drops/glasses/1 = "));
 }
 
 TEST(DropsInScenes, ARunTellsTheLedgerOfTheWorld) {

@@ -175,7 +175,12 @@ TEST(SkinnedFigure, BadFilesAreNamed) {
   const std::string complaint = reading.complaint(withoutMatrices.dump(), arm.bytes());
   if (!complaint.empty()) expectNames(complaint, {"/figures/0/motion", "assimp", "crashes"});
   // assimp takes it for OpenGEX, whatever its name, finds nothing in it and does not complain.
-  expectNames(reading.complaint("geometrynode {}", arm.bytes()), {"/figures/0/motion", "no joints"});
+  expectNames(reading.complaint("{\"a\":\"geometrynode\"}", arm.bytes()), {"/figures/0/motion", "no joints"});
+  // Of other formats that assimp knows, a few bytes may take it minutes.
+  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 30000000\nend_header\n";
+  expectNames(reading.complaint(ply, arm.bytes()), {"/figures/0/motion", "neither BVH nor glTF"});
+  const std::string glb = std::string("glTF\2\0\0\0\0\x28\x6b\xee", 12) + "more";
+  expectNames(reading.complaint(glb, arm.bytes()), {"/figures/0/motion", "cut off", "4000000000 bytes"});
   Json still = arm.description();
   still.erase("animations");
   expectNames(reading.complaint(still.dump(), arm.bytes()), {"/figures/0/motion", "no animation"});
