@@ -49,8 +49,6 @@ TEST_F(CommandFiles, AreNotWrittenOverWhatIsReadOrOverEachOther) {
   expectRefusal(run({"--json", m_scene}), {"--json", m_scene, "another file than the scene"});
   expectRefusal(run({"--checkpoint", m_scene, "--every", "2"}), {"--checkpoint", "another file than the scene"});
   expectRefusal(run({"--json", path("a"), "--checkpoint", path("b/../a"), "--every", "2"}), {"--checkpoint", "--json"});
-  fs::create_symlink(m_scene, path("link.json"));
-  expectRefusal(run({"--json", path("link.json")}), {"--json", "another file than the scene"});
   expectRefusal(runWetcloth({"export", m_scene, "--format", "usda", "--out", path("z.usda"), "--json", path("z.usda")}),
                 {"--out", "another file than --json"});
   expectRefusal(runWetcloth({"render", m_scene, "--out", path("z.html"), "--json", path("z.html")}),
@@ -62,7 +60,10 @@ TEST_F(CommandFiles, AreNotWrittenOverWhatIsReadOrOverEachOther) {
   EXPECT_EQ(scene(), m_text);
 }
 
+#ifndef _WIN32
 TEST_F(CommandFiles, GoWhereALinkLeads) {
+  fs::create_symlink(m_scene, path("link.json"));
+  expectRefusal(run({"--json", path("link.json")}), {"--json", "another file than the scene"});
   const std::string target = m_directory.write("target", "old");
   fs::create_symlink(target, path("link"));
   EXPECT_EQ(run({"--checkpoint", path("link"), "--every", "2"}).status, 0);
@@ -70,7 +71,6 @@ TEST_F(CommandFiles, GoWhereALinkLeads) {
   EXPECT_GT(fs::file_size(target), 100u);
 }
 
-#ifndef _WIN32
 TEST_F(CommandFiles, DoNotTakeTheNameOfAPipe) {
   const std::string pipe = path("pipe");
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
