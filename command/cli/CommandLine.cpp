@@ -23,14 +23,18 @@ void requireKnownCommand(const std::vector<Command>& commands, int count, char**
                    joined(names));
 }
 
+[[noreturn]] void rejectEmpty(int number, const std::string& word, const std::string& before) {
+  const std::string place = before.empty() ? "" : ", after " + before;
+  throw InputError("wetcloth: argument " + std::to_string(number) + " = \"" + word + "\"" + place + ": is empty");
+}
+
 /// Most often a variable of a shell that was never set: as if nothing had been said would be a surprise.
 void requireNoneEmpty(int count, char** arguments) {
   for (int i = 1; i < count; ++i) {
     const std::string word = arguments[i];
     const bool isOption = word.rfind("--", 0) == 0;
     if (!word.empty() && !(isOption && word.back() == '=')) continue;
-    const std::string before = i > 1 && word.empty() ? ", after " + std::string(arguments[i - 1]) : "";
-    throw InputError("wetcloth: argument " + std::to_string(i) + " = \"" + word + "\"" + before + ": is empty");
+    rejectEmpty(i, word, i > 1 && word.empty() ? arguments[i - 1] : "");
   }
 }
 
