@@ -65,7 +65,7 @@ btVector3 vectorOf(const wetcloth::Colour& colour) {
 class DebugDraw {
  protected:
   ClothScene scene{GetParam(), btVector3(0, 0, 0), levelPatch(5, 1)};
-  const std::size_t faces = 2 * 4 * 4;
+  const std::size_t faces = std::size_t(2) * 4 * 4;
 };
 
 TEST_F_IN_EVERY_WORLD(DebugDraw, DrawsEachTriangleOnceAndNothingElseWithoutWind) {
