@@ -134,8 +134,8 @@ class Tangle {
   }
   static std::vector<FoundPair> listed(const GuardCandidates& candidates) {
     std::vector<FoundPair> pairs;
-    for (const auto& pair : candidates.vertexFace) pairs.push_back({1, pair.node});
-    for (const auto& pair : candidates.edgeEdge) pairs.push_back({2, pair.node});
+    for (const auto& pair : candidates.vertexFace) pairs.emplace_back(1, pair.node);
+    for (const auto& pair : candidates.edgeEdge) pairs.emplace_back(2, pair.node);
     return pairs;
   }
 
