@@ -3,6 +3,7 @@
 
 #include "bullet_wetcloth/Require.h"
 #include "bullet_wetcloth/WorldPart.h"
+#include "bullet_wetcloth/bullet/RunningMark.h"
 #include "bullet_wetcloth/bullet/SubstepHook.h"
 #include "bullet_wetcloth/bullet/Versions.h"
 #include "bullet_wetcloth/solver/ClothSolver.h"
@@ -53,18 +54,6 @@ void requireValid(const std::vector<Fabric>& fabrics, const std::vector<int>& fa
                 "in [0, " + std::to_string(fabrics.size()) + ")");
   }
 }
-
-// While it lives, a step runs.
-class Stepping {
- public:
-  explicit Stepping(bool& isStepping) : m_isStepping(isStepping) { m_isStepping = true; }
-  ~Stepping() { m_isStepping = false; }
-  Stepping(const Stepping&) = delete;
-  Stepping& operator=(const Stepping&) = delete;
-
- private:
-  bool& m_isStepping;
-};
 
 bool hasGravityForce(btDeformableBodySolver& solver) {
   const btAlignedObjectArray<btDeformableLagrangianForce*>& forces = solver.m_objective->m_lf;
@@ -211,7 +200,7 @@ void WetClothWorld::requireBetweenSteps() const {
 
 void WetClothWorld::preTick(btScalar dt) {
   if (!m_substepHook || !(std::isfinite(dt) && dt > 0)) return;
-  const Stepping stepping(m_isStepping);
+  const RunningMark stepping(m_isStepping);
   m_stepStart = m_time;
   for (const auto& cloth : m_cloths) {
     if (noticePresence(*cloth)) cloth->observe(stepOf(cloth->m_body, dt, m_time));
@@ -230,7 +219,7 @@ void WetClothWorld::preTick(btScalar dt) {
 
 void WetClothWorld::tick(btScalar dt) {
   if (!m_substepHook || !(std::isfinite(dt) && dt > 0)) return;
-  const Stepping stepping(m_isStepping);
+  const RunningMark stepping(m_isStepping);
   for (const auto& cloth : m_cloths) {
     if (noticePresence(*cloth)) cloth->stepContacts(stepOf(cloth->m_body, dt, m_stepStart));
   }

@@ -2,6 +2,7 @@
 #include "bullet_wetcloth/bullet/SubstepHook.h"
 
 #include "bullet_wetcloth/Require.h"
+#include "bullet_wetcloth/bullet/RunningMark.h"
 
 #include <map>
 #include <mutex>
@@ -32,18 +33,6 @@ struct Entry {
   Shared preTick;
   Shared tick;
   Shared& of(SubstepHook::Slot slot) { return slot == SubstepHook::Slot::preTick ? preTick : tick; }
-};
-
-// Takes itself back when an application's callback throws.
-class RunningMark {
- public:
-  explicit RunningMark(bool& isRunning) : m_isRunning(isRunning) { m_isRunning = true; }
-  ~RunningMark() { m_isRunning = false; }
-  RunningMark(const RunningMark&) = delete;
-  RunningMark& operator=(const RunningMark&) = delete;
-
- private:
-  bool& m_isRunning;
 };
 
 // Worlds may live in threads of their own.

@@ -16,9 +16,8 @@ std::string optionFor(const std::string& target) { return "wetcloth: --json = \"
 
 bool isDeviceOrPipe(const std::string& path) {
   std::error_code ignored;
-  return std::filesystem::is_other(std::filesystem::status(path, ignored)) ||
-         std::filesystem::is_fifo(std::filesystem::status(path, ignored)) ||
-         std::filesystem::is_character_file(std::filesystem::status(path, ignored));
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  return exists(status) && !is_regular_file(status) && !is_directory(status);
 }
 
 }  // namespace

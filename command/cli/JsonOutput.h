@@ -16,6 +16,7 @@ class JsonOutput {
  public:
   /// Throws InputError when the file cannot be written.
   explicit JsonOutput(std::string target);
+
   /// Whether standard output belongs to the JSON, and nothing else may be printed there.
   bool ownsStandardOutput() const { return m_target == "-"; }
   /// Throws RunError when the file cannot be written.

@@ -12,7 +12,8 @@ class StagedOutput {
  public:
   enum class Kind { file, folder };
 
-  /// A file that is there already will be replaced; a folder must be new or empty.
+  /// A file that is there already will be replaced, where the path is a link the one that it leads to; a folder must be
+  /// new or empty. A device or a pipe is refused.
   /// @param option  as the user wrote it, such as "wetcloth: --out = \"x.html\"", for messages
   /// Throws InputError when it cannot be made there.
   StagedOutput(const std::string& option, const std::string& path, Kind kind);
