@@ -9,6 +9,7 @@
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -23,6 +24,10 @@ namespace {
 // Bullet scales a link's correction by its material's stiffness. This little leaves a link in place but powerless;
 // exactly zero would make Bullet divide by it.
 constexpr btScalar kPowerless = btScalar(1e-12);
+
+// Times m / dt^2 of the heaviest node, a spring does not give way: the weight of n such nodes makes it longer by
+// n g dt^2 / 1e10. Beside a much stiffer one a mass is lost to rounding.
+constexpr double kRigid = 1e10;
 
 void requireValid(const HookeSprings::Parameters& parameters) {
   requirePositive("HookeSprings.stiffness", parameters.stiffness);
@@ -86,6 +91,7 @@ void HookeSprings::attach(WetCloth& cloth) {
     m_springs[k].b = nodeIndex(body, link.m_n[1]);
   }
   m_stiffnessRevision = kUnscaled;
+  m_limitedSprings = m_springs;
   m_nodes.resize(static_cast<std::size_t>(body.m_nodes.size()));
   m_solver->reset(m_nodes.size(), m_springs.size());
 }
@@ -137,7 +143,8 @@ void HookeSprings::apply(WetCloth& cloth, const Step& step) {
   scaleStiffness(cloth);
   gather(cloth.body(), step);
   followAnchors(cloth.body(), step);
-  m_solver->solve(m_springs, m_nodes, step.dt, m_parameters.iterations);
+  const std::vector<Spring>& springs = limitedSprings(step.dt);
+  m_solver->solve(springs, m_nodes, step.dt, m_parameters.iterations);
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
     if (m_nodes[i].isFixed) continue;
     const std::array<double, 3>& change = m_nodes[i].velocityChange;
@@ -145,7 +152,18 @@ void HookeSprings::apply(WetCloth& cloth, const Step& step) {
                btVector3(static_cast<btScalar>(change[0]), static_cast<btScalar>(change[1]),
                          static_cast<btScalar>(change[2])));
   }
-  pullAnchors(cloth.body(), step);
+  pullAnchors(cloth.body(), springs, step);
+}
+
+const std::vector<Spring>& HookeSprings::limitedSprings(double dt) {
+  double mass = 0;
+  for (const SpringNode& node : m_nodes) mass = std::max(mass, node.mass);
+  const double most = kRigid * mass / (dt * dt);
+  const auto isWithin = [&](const Spring& spring) { return spring.stiffness <= most; };
+  if (std::all_of(m_springs.begin(), m_springs.end(), isWithin)) return m_springs;
+  m_limitedSprings = m_springs;
+  for (Spring& spring : m_limitedSprings) spring.stiffness = std::min(spring.stiffness, most);
+  return m_limitedSprings;
 }
 
 // Rest lengths are read in every step: Bullet resets them when a body was cut, and an application may change them.
@@ -209,10 +227,10 @@ void HookeSprings::followAnchors(btSoftBody& body, const Step& step) {
   });
 }
 
-void HookeSprings::pullAnchors(btSoftBody& body, const Step& step) {
+void HookeSprings::pullAnchors(btSoftBody& body, const std::vector<Spring>& springs, const Step& step) {
   forEachAnchor(body, [&](const AnchorPoint& anchor) {
     if (anchor.rigid->isStaticOrKinematicObject()) return;
-    const std::array<double, 3> pull = m_solver->forceOn(m_springs, toSize(nodeIndex(body, anchor.node)));
+    const std::array<double, 3> pull = m_solver->forceOn(springs, toSize(nodeIndex(body, anchor.node)));
     const btVector3 force(static_cast<btScalar>(pull[0]), static_cast<btScalar>(pull[1]),
                           static_cast<btScalar>(pull[2]));
     anchor.rigid->activate();

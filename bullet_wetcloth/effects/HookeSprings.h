@@ -29,7 +29,8 @@ WETCLOTH_EXPORT btVector3 hookeForce(const btVector3& a, const btVector3& b, dou
 /// one sparse factorisation for very many steps as their preconditioner (the matrix of Liu et al. 2013, "Fast
 /// simulation of mass-spring systems"). It is made anew when a node was freed or held, or when m / dt^2 of a node or K
 /// of a spring has doubled or halved: a cloth that soaks to 1.84 times its mass keeps it. Stable for any stiffness and
-/// step. Anchored nodes follow their rigid body, which feels the pull.
+/// step; one above 1e10 m / dt^2, of the heaviest node, is taken for that. Anchored nodes follow their rigid body,
+/// which feels the pull.
 ///
 /// Works in all three worlds. In the deformable world Bullet has springs of its own (btDeformableMassSpringForce):
 /// use those or this, not both.
@@ -79,11 +80,13 @@ class WETCLOTH_EXPORT HookeSprings : public Effect {
   void scaleStiffness(WetCloth& cloth);
   void gather(const btSoftBody& body, const Step& step);
   void followAnchors(btSoftBody& body, const Step& step);
-  void pullAnchors(btSoftBody& body, const Step& step);
+  void pullAnchors(btSoftBody& body, const std::vector<Spring>& springs, const Step& step);
+  const std::vector<Spring>& limitedSprings(double dt);
 
   Parameters m_parameters;
   std::unique_ptr<SpringSolver> m_solver;  // behind a pointer, so that Eigen stays out of this header
   std::vector<Spring> m_springs;
+  std::vector<Spring> m_limitedSprings;  // the same, none so stiff that masses would be lost beside it
   std::vector<SpringNode> m_nodes;
   unsigned long long m_stiffnessRevision = kUnscaled;  // of LinkConstants::setStiffness()
   btSoftBody::Material* m_powerless = nullptr;         // appended to the body, which owns it

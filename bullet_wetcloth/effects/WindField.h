@@ -19,7 +19,10 @@ class WETCLOTH_EXPORT WindField {
 
   /// Air at rest.
   WindField() = default;
-  /// The same velocity everywhere [m/s], finite.
+  /// Of air [m/s], in SI units or others. Cloth in a faster wind would leave the places that Bullet can tell apart.
+  static constexpr double fastest = 1e6;
+
+  /// The same velocity everywhere [m/s], no faster than `fastest`.
   WindField(const btVector3& everywhere) : m_constant(everywhere) {}
   /// A function, asked in each step at each triangle.
   WindField(Function function) : m_function(std::move(function)) {}
@@ -32,10 +35,10 @@ class WETCLOTH_EXPORT WindField {
   /// The velocity of one that is no function [m/s].
   const btVector3& constant() const { return m_constant; }
 
-  /// A function's value that is not finite counts as no wind.
+  /// A function's value that is not finite or faster than `fastest` counts as no wind.
   btVector3 at(const btVector3& position, double time) const;
 
-  /// Throws std::invalid_argument naming `field` and the value when a constant is not finite.
+  /// Throws std::invalid_argument naming `field` and the value when a constant is not finite or too fast.
   void requireValid(const char* field) const;
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/scene/ColliderReader.h"
 
+#include "command/scene/Farthest.h"
 #include "command/scene/ReadMesh.h"
 #include "command/scene/ReadParameters.h"
 
@@ -107,7 +108,6 @@ Collider readCollider(JsonCursor cursor) {
     if (collider.as<Plane>() != nullptr) motion->complain("a plane does not move; a box does");
     collider.motion = readRigidMotion(*motion, middleOf(collider));
   }
-  constexpr double farthest = 1e8;  // from 5e8 on Bullet's cells of distances to shapes have no number
   if (!(reachOf(collider) <= farthest)) cursor.complain("must be within 1e8 m of 0 at all times");
   return collider;
 }

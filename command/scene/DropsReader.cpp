@@ -41,7 +41,7 @@ wetcloth::Pour readPour(JsonCursor cursor) {
   wetcloth::Pour pour;
   pour.position = readVector(cursor.at("position_m"));
   pour.flow = cursor.at("flow_kg_s").number(Range::notNegative());
-  readVector(cursor, "velocity_m_s", pour.velocity);
+  readVector(cursor, "velocity_m_s", pour.velocity, Range::velocity());
   readNumber(cursor, "drop_diameter_m", diameters(), pour.dropDiameter);
   readNumber(cursor, "mouth_radius_m", Range::notNegative(), pour.mouthRadius);
   if (const auto angle = cursor.find("half_angle_deg")) {
@@ -83,7 +83,7 @@ DropsScene readDrops(JsonCursor cursor, const Scene& scene) {
   cursor.expectObject(keys::drops);
   DropsScene drops;
   wetcloth::Drops::Parameters& parameters = drops.parameters;
-  if (const auto wind = cursor.find("wind_m_s")) parameters.wind = readVector(*wind);
+  if (const auto wind = cursor.find("wind_m_s")) parameters.wind = readVector(*wind, Range::velocity());
   readNumber(cursor, "drop_mass_kg", Range::positive(), parameters.dropMass);
   if (const auto most = cursor.find("most")) parameters.mostDrops = most->integer(1, 10000000);
   readNumber(cursor, "longest_flight_s", Range::positive(), parameters.longestFlight);

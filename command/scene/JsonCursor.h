@@ -26,6 +26,11 @@ struct Range {
   static Range finite() { return {-3.4e38, 3.4e38, true, "a finite number that float32 can hold"}; }
   static Range positive() { return {0, 3.4e38, false, "finite and > 0"}; }
   static Range notNegative() { return {0, 3.4e38, true, "finite and >= 0"}; }
+  /// Of a place, and of all else that has no range of its own: command/scene/Farthest.h.
+  static Range coordinate() { return {-1e8, 1e8, true, "in [-1e8, 1e8]"}; }
+  /// Of a velocity: WindField::fastest.
+  static Range velocity() { return {-1e6, 1e6, true, "in [-1e6, 1e6]"}; }
+  static Range speed() { return {0, 1e6, true, "in [0, 1e6]"}; }
   static Range fraction() { return {0, 1, true, "in [0, 1]"}; }
   static Range positiveFraction() { return {0, 1, false, "in (0, 1]"}; }
 

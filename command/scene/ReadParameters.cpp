@@ -10,8 +10,8 @@ namespace {
 /// mean + amplitude sin(2 pi (t - x . mean / |mean|^2) / period).
 wetcloth::WindField readGust(JsonCursor cursor) {
   cursor.expectObject(keys::gust);
-  const btVector3 mean = readVector(cursor.at("mean_m_s"));
-  const btVector3 amplitude = readVector(cursor.at("amplitude_m_s"));
+  const btVector3 mean = readVector(cursor.at("mean_m_s"), Range::velocity());
+  const btVector3 amplitude = readVector(cursor.at("amplitude_m_s"), Range::velocity());
   const double period = cursor.at("period_s").number(Range::positive());
   const btScalar speed2 = mean.length2();
   const btVector3 delay = speed2 > 0 ? btVector3(mean / speed2) : btVector3(0, 0, 0);
@@ -51,7 +51,7 @@ wetcloth::Exposure readExposure(JsonCursor cursor, int nodes) {
 
 wetcloth::WindField readWindField(const JsonCursor& effect) {
   if (effect.exactlyOneOf({"velocity_m_s", "gust"}) == "gust") return readGust(effect.at("gust"));
-  return readVector(effect.at("velocity_m_s"));
+  return readVector(effect.at("velocity_m_s"), Range::velocity());
 }
 
 std::vector<double> readTimes(const JsonCursor& cursor) {

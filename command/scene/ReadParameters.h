@@ -11,7 +11,7 @@
 
 namespace command {
 
-inline btVector3 readVector(const JsonCursor& cursor, const Range& range = Range::finite()) {
+inline btVector3 readVector(const JsonCursor& cursor, const Range& range = Range::coordinate()) {
   const std::array<double, 3> xyz = cursor.triple(range);
   return btVector3(btScalar(xyz[0]), btScalar(xyz[1]), btScalar(xyz[2]));
 }
@@ -20,8 +20,9 @@ inline btVector3 readVector(const JsonCursor& cursor, const Range& range = Range
 inline void readNumber(const JsonCursor& object, const char* key, const Range& range, double& value) {
   if (const auto found = object.find(key)) value = found->number(range);
 }
-inline void readVector(const JsonCursor& object, const char* key, btVector3& value) {
-  if (const auto found = object.find(key)) value = readVector(*found);
+inline void readVector(const JsonCursor& object, const char* key, btVector3& value,
+                       const Range& range = Range::coordinate()) {
+  if (const auto found = object.find(key)) value = readVector(*found, range);
 }
 
 /// A vector that tells where to.

@@ -6,6 +6,7 @@
 #include "command/scene/ClothBody.h"
 #include "command/scene/ColliderShape.h"
 #include "command/scene/Dressing.h"
+#include "command/scene/Farthest.h"
 #include "command/scene/StableSprings.h"
 
 #include <algorithm>
@@ -53,6 +54,15 @@ void wetAtTheBeginning(const ClothScene& scene, wetcloth::WetCloth& cloth) {
   cloth.setHeld(held);
 }
 
+bool isWithinReach(const btVector3& place) { return static_cast<double>(place.length2()) <= farthest * farthest; }
+
+void requireWithinReach(const btSoftBody& body) {
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    if (!isWithinReach(body.m_nodes[i].m_x))
+      throw std::invalid_argument("node " + std::to_string(i) + " must be within 1e8 m of 0");
+  }
+}
+
 /// Its length too: a speed that btScalar cannot hold makes the next step's numbers infinite.
 bool isFinite(const btVector3& vector) { return std::isfinite(vector.length2()); }
 
@@ -87,6 +97,7 @@ void SceneWorld::addCloth(std::size_t index, Kind kind) {
   const ClothScene& cloth = m_scene.cloths[index];
   std::unique_ptr<btSoftBody> body = makeClothBody(cloth, m_world.worldInfo());
   if (cloth.garment) placeNodes(*body, dressedPlaces(m_scene)[index]);
+  requireWithinReach(*body);
   const bool wePull = kind == Kind::wet && cloth.hasEffect("hooke_springs");
   const bool bulletPulls = m_scene.world == WorldKind::deformable && !wePull;
   m_springs.emplace_back();
@@ -179,8 +190,18 @@ void SceneWorld::step(const BeforeSubstep& before) {
     for (Motion& motion : m_motions) motion.moveTo(time);
     if (before) before(dt);
     m_world.substep(dt);
+    if (!isInReach()) break;  // of Bullet, which another substep might crash; blowUp() tells
   }
   ++m_steps;
+}
+
+bool SceneWorld::isInReach() const {
+  for (const btSoftBody* body : m_bodies) {
+    for (int i = 0; i < body->m_nodes.size(); ++i) {
+      if (!isWithinReach(body->m_nodes[i].m_x)) return false;
+    }
+  }
+  return true;
 }
 
 double SceneWorld::filmOn(std::size_t collider) const {

@@ -69,6 +69,7 @@ class SceneWorld {
   std::optional<std::string> blowUp(double otherPush = 0) const;
 
  private:
+  bool isInReach() const;
   void addCloth(std::size_t index, Kind kind);
   wetcloth::WetCloth& wet(const ClothScene& cloth, btSoftBody& body) const;
   void settle();

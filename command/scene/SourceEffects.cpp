@@ -112,7 +112,8 @@ AddEffect readAbsorption(const JsonCursor& cursor, const EffectContext& context)
   if (const auto exposure = cursor.find("exposure"))
     parameters.exposure = readExposure(*exposure, context.cloth.nodeCount());
   if (const auto law = cursor.find("law")) parameters.law = law->choice(laws);
-  if (const auto water = cursor.find("water_velocity_m_s")) parameters.waterVelocity = readVector(*water);
+  if (const auto water = cursor.find("water_velocity_m_s"))
+    parameters.waterVelocity = readVector(*water, Range::velocity());
   if (const auto conserves = cursor.find("conserves_momentum")) {
     parameters.conservesMomentum = conserves->boolean();
   }
@@ -152,7 +153,7 @@ AddEffect readRain(const JsonCursor& cursor, const EffectContext&) {
   Rain::Parameters parameters;
   readDirection(cursor, "direction", parameters.direction);
   readNumber(cursor, "flux_kg_m2_s", Range::notNegative(), parameters.flux);
-  readNumber(cursor, "speed_m_s", Range::notNegative(), parameters.speed);
+  readNumber(cursor, "speed_m_s", Range::speed(), parameters.speed);
   if (const auto shelter = cursor.find("self_shelter")) parameters.selfShelter = shelter->boolean();
   return addEffect<Rain>(parameters);
 }

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <limits>
 #include <random>
+#include <stdexcept>
 
 namespace command {
 namespace {
@@ -77,6 +79,24 @@ Vectors pulled(const std::vector<Spring>& springs, const std::vector<double>& ro
   return result;
 }
 
+double lightestFreeNode(const btSoftBody& body) {
+  double most = 0;
+  for (int i = 0; i < body.m_nodes.size(); ++i) most = std::max(most, static_cast<double>(body.m_nodes[i].m_im));
+  return 1 / most;
+}
+
+/// What a spring does to a node in a substep, times this precision's rounding, must be less than the node's own mass;
+/// else the mass is lost in a sum of the two, and Bullet's solver leaves the cloth hanging in the air.
+void requireMassesToCount(const char* key, double value, double most) {
+  if (value < most) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "\"%s\" = %g: must be less than %.3g, where the lightest node's mass is lost beside it; try smaller "
+                "substeps or the effect hooke_springs",
+                key, value, most);
+  throw std::invalid_argument(text);
+}
+
 }  // namespace
 
 double stableStiffness(const btSoftBody& body, double substep) {
@@ -99,12 +119,16 @@ double stableStiffness(const btSoftBody& body, double substep) {
 
 DeformableSprings springsOf(const SpringScene& scene, const btSoftBody& body, double substep, bool isImplicit) {
   const bool isAllSaid = scene.stiffness && scene.bendingStiffness;
-  const double most =
+  const double stable =
       isAllSaid || isImplicit ? std::numeric_limits<double>::infinity() : stableStiffness(body, substep);
   DeformableSprings springs;
-  springs.stiffness = scene.stiffness.value_or(std::min(stiffest, most));
-  springs.bendingStiffness = scene.bendingStiffness.value_or(std::min(stiffestBending, most));
+  springs.stiffness = scene.stiffness.value_or(std::min(stiffest, stable));
+  springs.bendingStiffness = scene.bendingStiffness.value_or(std::min(stiffestBending, stable));
   springs.damping = scene.damping;
+  const double most = lightestFreeNode(body) / static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+  requireMassesToCount("spring_stiffness_n_m", springs.stiffness, most / (substep * substep));
+  requireMassesToCount("bending_stiffness_n_m", springs.bendingStiffness, most / (substep * substep));
+  requireMassesToCount("spring_damping_n_s_m", springs.damping, most / substep);
   return springs;
 }
 

@@ -13,7 +13,8 @@ namespace command {
 double stableStiffness(const btSoftBody& body, double substep);
 
 /// The springs of a cloth: what the scene says; else 100 N/m and 1 N/m against bending, or less where the explicit
-/// world does not bear that.
+/// world does not bear that. Throws std::invalid_argument for one beside which the lightest node's mass is lost in
+/// btScalar: Bullet's solver would stop, and the cloth would hang in the air.
 DeformableSprings springsOf(const SpringScene& scene, const btSoftBody& body, double substep, bool isImplicit);
 
 }  // namespace command

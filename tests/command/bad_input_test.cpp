@@ -32,6 +32,17 @@ BadScene at(const std::string& name, const std::string& pointer, const Json& val
   return {name, [=](Json& scene) { scene[Json::json_pointer(pointer)] = value; }, words};
 }
 
+/// Bullet's solver would stop, and leave the cloth hanging in the air.
+BadScene besideASpring(const std::string& key) {
+  return {"MassesLostBeside_" + key,
+          [key](Json& scene) {
+            scene["world"] = "deformable";
+            effects(scene).erase("hooke_springs");
+            cloth(scene)[key] = 1e19;
+          },
+          {"/cloths/0", "\"" + key + "\" = 1e+19", "mass", "hooke_springs"}};
+}
+
 std::vector<BadScene> badScenes() {
   return {
       at("KeyWithATypo", "/duraton_s", 5, {"unknown key", "\"duration_s\""}),
@@ -45,7 +56,16 @@ std::vector<BadScene> badScenes() {
       at("ListAsObject", "/cloths", Json::object(), {"must be an array"}),
       at("NoCloth", "/cloths", Json::array(), {"at least one cloth"}),
       at("VectorOfTwo", "/gravity_m_s2", {0, -9.81}, {"array of three numbers"}),
-      at("NumberThatFloat32CannotHold", "/gravity_m_s2/1", 1e300, {"finite"}),
+      at("NumberThatFloat32CannotHold", "/gravity_m_s2/1", 1e300, {"[-1e8, 1e8]"}),
+      at("WindFasterThanAnyIs", "/cloths/0/effects/wind/velocity_m_s/0", 1e15, {"[-1e6, 1e6]"}),
+      {"PatchFartherThanBulletBears",
+       [](Json& scene) {
+         cloth(scene)["patch"]["origin_m"] = {0, 9e7, 9e7};
+         cloth(scene)["patch"]["edge_u_m"] = {1e4, 0, 0};  // which numbers there can tell apart
+         cloth(scene)["patch"]["edge_v_m"] = {0, 0, 1e4};
+       },
+       {"/cloths/0", "within 1e8 m of 0"}},
+
       at("StepOfZero", "/step_s", 0, {"(0, 1]"}),
       at("StepNegative", "/step_s", -0.01, {"(0, 1]"}),
       at("StepOfTenSeconds", "/step_s", 10, {"(0, 1]"}),
@@ -105,6 +125,9 @@ std::vector<BadScene> badScenes() {
       at("UnknownCorner", "/cloths/0/pins/corners/0", "top_lefft", {"\"top_left\""}),
       at("PinnedNodeTooHigh", "/cloths/0/pins/nodes/0", 20, {"0 to 19"}),
       at("SpringsOutsideTheDeformableWorld", "/cloths/0/spring_stiffness_n_m", 10, {"deformable"}),
+      besideASpring("spring_stiffness_n_m"),
+      besideASpring("bending_stiffness_n_m"),
+      besideASpring("spring_damping_n_s_m"),
       at("RadiusZero", "/colliders/0/sphere/radius_m", 0, {"> 0"}),
       at("ColliderWithoutKind", "/colliders/0", Json::object(), {"plane, box, sphere"}),
       {"ColliderLargerThanAnythingIs",
@@ -112,7 +135,7 @@ std::vector<BadScene> badScenes() {
        {"/colliders/0 = ", "within 1e8 m"}},
       {"ColliderThatFliesFarAway",
        [](Json& scene) {
-         scene["colliders"][0]["motion"] = {{"times_s", {0, 1}}, {"offsets_m", {{0, 0, 0}, {0, 3e8, 0}}}};
+         scene["colliders"][0]["motion"] = {{"times_s", {0, 1}}, {"offsets_m", {{0, 0, 0}, {9e7, 9e7, 0}}}};
        },
        {"/colliders/0 = ", "within 1e8 m"}},
       at("NormalOfLengthZero", "/colliders/1/plane/normal", {0, 0, 0}, {"of a length in"}),

@@ -74,6 +74,26 @@ TEST(BlowUp, IsNotWhatFallsFarIsBlownOrHangsLong) {
   EXPECT_GT(runScene(soft).at("max_stretch").get<double>(), 3);
 }
 
+TEST(BlowUp, IsWhatNoClothSurvives) {
+  const auto expectFailure = [](const Json& scene, const char* why) {
+    const TemporaryDirectory directory;
+    const Outcome outcome = runWetcloth({"run", directory.write("scene.json", scene.dump())});
+    EXPECT_EQ(outcome.status, 1) << why;
+    EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+  };
+  Json falling = smallScene();
+  falling.erase("colliders");
+  falling["cloths"][0].erase("effects");
+  falling["gravity_m_s2"] = {0, -1e8, 0};
+  falling["duration_s"] = 2;  // of which 1.4 are 1e8 m
+  expectFailure(falling, "m away, farther than Bullet bears");
+  Json torn = smallScene();
+  torn["cloths"][0]["pins"] = {{"edges", {"top"}}};
+  torn["cloths"][0]["patch"]["columns"] = torn["cloths"][0]["patch"]["rows"] = 25;
+  torn["cloths"][0]["effects"] = {{"wind", {{"velocity_m_s", {0, 9e5, 0}}}}};
+  expectFailure(torn, "times as long as at rest");
+}
+
 TEST(BlowUp, ARunMayLastLongerThanAnHour) {
   Json scene = smallScene();
   scene["duration_s"] = 36000;

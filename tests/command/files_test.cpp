@@ -95,7 +95,7 @@ TEST_F(CommandFiles, AFullDiskIsNoSuccess) {
 TEST_F(CommandFiles, JsonHasItsNameWhenItIsWhole) {
   const std::string before = m_directory.write("result.json", "before");
   Json blowsUp = Json::parse(m_text);
-  blowsUp["gravity_m_s2"] = {0, 1e38, 0};
+  blowsUp["cloths"][0]["effects"]["wind"] = {{"velocity_m_s", {0, 1e5, 1e5}}, {"integration", "explicit_euler"}};
   const std::string bad = m_directory.write("bad.json", blowsUp.dump());
   EXPECT_EQ(runWetcloth({"run", bad, "--json", before}).status, 1);
   std::ifstream file(before);

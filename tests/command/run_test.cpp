@@ -187,16 +187,14 @@ TEST(Run, ARunThatIsRefusedLeavesNoFile) {
   EXPECT_FALSE(std::filesystem::exists(directory.path("result.json")));
 }
 
-TEST(Run, ANonFiniteStateIsARunThatFailed) {
+TEST(Run, AStateThatBlewUpIsARunThatFailed) {
   Json scene = smallScene();
-  scene["gravity_m_s2"] = {0, -3e38, 0};  // too much for float32
-  scene["cloths"][0]["effects"]["wind"] = {{"velocity_m_s", {1e30, 1e30, 1e30}},
-                                           {"integration", "explicit_euler"}};  // and this for float64
+  scene["cloths"][0]["effects"]["wind"] = {{"velocity_m_s", {0, 1e5, 1e5}}, {"integration", "explicit_euler"}};
   const TemporaryDirectory directory;
   const std::string file = directory.write("scene.json", scene.dump());
   const Outcome outcome = runWetcloth({"run", file, "--precision", testedPrecision()});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_NE(outcome.err.find(file + ": the state became non-finite in step "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find(file + ": the cloth blew up in step "), std::string::npos) << outcome.err;
 }
 
 TEST(Validate, SaysOkForEachExampleScene) {

@@ -52,7 +52,7 @@ double closedForm(double time, double timeConstant, double exposure = 1, double 
 }
 
 constexpr double kTheta = 8.844;     // cotton [s]
-constexpr double kRelative = 1e-12;  // the bound; rounding of the last digit is 2e-16 per step
+constexpr double kRelative = 1e-12;  // rounding of the last digit is 2e-16 per step
 
 TEST(AbsorptionLaw, ExponentialShareIsOneMinusExpAndKeepsItsDigitsWhenSmall) {
   EXPECT_EQ(wetcloth::exponentialShare(0), 0);

@@ -17,7 +17,7 @@ using wetcloth::Absorption;
 using wetcloth::Fabric;
 using wetcloth::Hook;
 
-// A component of a velocity is rounded once per commit: 1e-16 in float64, 6e-8 in float32; the issue allows
+// A component of a velocity is rounded once per commit: 1e-16 in float64, 6e-8 in float32; allowed are
 // 1e-12 and 1e-5.
 constexpr double kRounding = kIsDouble ? 1e-12 : 1e-5;
 

@@ -51,7 +51,7 @@ void expectHangingChain(ClothScene& scene, double stiffness, double share, doubl
   }
 }
 
-// The issue allows 5 %. At rest the answer does not depend on iterations or the step; what is left of the fall is
+// At rest the answer does not depend on iterations or the step; what is left of the fall is
 // exp(-0.03 x 240) = 1e-3 of it, and float32 knows a length of 0.8 m to 6e-8 m, 3e-5 of the smallest extension.
 constexpr double kShare = 0.01;
 
@@ -205,7 +205,7 @@ TEST_IN_EVERY_WORLD(HookeSpringsLoad, RopeWithABoxStretchesByBoth) {
     scene.cloth().add<HookeSprings>(springs(kStiffness));
     settle(scene, kSubstep, 6);
 
-    // 5 %, the issue's bound: Bullet's anchors are soft constraints of their own.
+    // 5 %: Bullet's anchors are soft constraints of their own.
     expectHangingChain(scene, kStiffness, 0.05, load);
     EXPECT_NEAR(box.getWorldTransform().getOrigin().y(), scene.node(kLinks).m_x.y(), 0.01);
     const double height = box.getWorldTransform().getOrigin().y();

@@ -21,7 +21,7 @@ using wetcloth::Hook;
 using wetcloth::HookeSprings;
 using wetcloth::WetStiffness;
 
-// Each link's impulse is rounded once for each of its ends: the issue allows 1e-12 and 1e-5.
+// Each link's impulse is rounded once for each of its ends: 1e-12 and 1e-5 leave room for a sum of them.
 constexpr double kRounding = kIsDouble ? 1e-12 : 1e-5;
 
 WetStiffness::Parameters damping(double dry, double wet) { return {1, 1, dry, wet}; }

@@ -108,7 +108,7 @@ TEST(WindOnCloth, SameForceAt32And128AlsoWhenCurved) {
       EXPECT_NEAR(flat32 / flat128, 1, 1e-4);
       const double bent32 = forceOn(levelPatch(32, 1), wind(velocity, law), bendToHalfCylinder).length();
       const double bent128 = forceOn(levelPatch(128, 1), wind(velocity, law), bendToHalfCylinder).length();
-      EXPECT_NEAR(bent32 / bent128, 1, 0.01);  // the bound; the polygon's error is (pi / 31)^2 / 12 = 0.1 %
+      EXPECT_NEAR(bent32 / bent128, 1, 0.01);  // the polygon's error is (pi / 31)^2 / 12 = 0.1 %
     }
   }
 }
