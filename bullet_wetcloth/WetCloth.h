@@ -200,9 +200,11 @@ class WETCLOTH_EXPORT WetCloth {
   /// Whether the guard of a ClothSolver keeps it from layers that it touches, of others or its own. Wetness then counts
   /// there by what an effect says in each step, in the stage forces or contact:
   bool isGuarded();
-  /// Of each node: a factor of the guard's friction, >= 0; of two layers the larger one counts. Empty: 1.
+  /// Of each node: a factor of the guard's friction, >= 0; of two layers the larger one counts. Empty, or not one a
+  /// node: 1, and so where one is not finite and >= 0.
   void setLayerFriction(const std::vector<btScalar>& factors);
-  /// Of each node: what keeps it on the layer on each of its two sides, away from it and along it [N], >= 0. Empty: 0.
+  /// Of each node: what keeps it on the layer on each of its two sides, away from it and along it [N], >= 0. Empty,
+  /// or not one a node: 0, and so where one is not finite and >= 0.
   void setLayerCling(const std::vector<btScalar>& pull, const std::vector<btScalar>& shear);
 
   /// Lets what arrived at a node in this step join it at once: mixes in its momentum, which otherwise waits for the

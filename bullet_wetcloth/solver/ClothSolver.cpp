@@ -103,7 +103,10 @@ class ClothSolver::Impl {
   void seeWhoIsLeft(const btAlignedObjectArray<btSoftBody*>& softBodies);
 
   void log(const std::string& message) const {
-    if (logger) logger(message);
+    try {
+      if (logger) logger(message);
+    } catch (...) {  // a step never throws
+    }
   }
 
   void solveGuarded(const btAlignedObjectArray<btSoftBody*>& softBodies, btScalar dt);
@@ -211,8 +214,20 @@ void ClothSolver::setLinkStiffness(const btSoftBody& body, const std::vector<btS
   if (Impl::Taken* const taken = m_impl->find(body)) taken->cloth.setLinkStiffness(factors, revision);
 }
 
+namespace {
+
+void replaceBad(std::vector<btScalar>& values, btScalar replacement) {
+  const auto isBad = [](btScalar value) { return !(value >= 0 && std::isfinite(value)); };
+  std::replace_if(values.begin(), values.end(), isBad, replacement);
+}
+
+}  // namespace
+
 void ClothSolver::setLayerFriction(const btSoftBody& body, const std::vector<btScalar>& factors) {
-  if (Impl::Taken* const taken = m_impl->find(body)) taken->cloth.wetness().friction = factors;
+  Impl::Taken* const taken = m_impl->find(body);
+  if (!taken) return;
+  taken->cloth.wetness().friction = factors;
+  replaceBad(taken->cloth.wetness().friction, 1);
 }
 
 void ClothSolver::setLayerCling(const btSoftBody& body, const std::vector<btScalar>& pull,
@@ -221,6 +236,8 @@ void ClothSolver::setLayerCling(const btSoftBody& body, const std::vector<btScal
   if (!taken) return;
   taken->cloth.wetness().pull = pull;
   taken->cloth.wetness().shear = shear;
+  replaceBad(taken->cloth.wetness().pull, 0);
+  replaceBad(taken->cloth.wetness().shear, 0);
 }
 
 PackedNodes* ClothSolver::packedNodes(const btSoftBody& body) {
@@ -415,6 +432,9 @@ void ClothSolver::solveConstraints(btScalar dt) {
     }
   }
   isGuarded ? m_impl->solveGuarded(m_softBodySet, dt) : m_impl->bodies.forget();
+  if (const auto failure = m_impl->viewers.dropFailed()) {
+    m_impl->log("wetcloth: the small-step callback is no longer called: " + *failure);
+  }
 }
 
 void ClothSolver::updateSoftBodies() {

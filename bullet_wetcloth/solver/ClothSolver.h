@@ -101,7 +101,7 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
       return btVector3(x[0][slots[node]], x[1][slots[node]], x[2][slots[node]]) + origin;
     }
   };
-  /// Called after each small step. It changes nothing.
+  /// Called after each small step. It changes nothing. One that throws is not called again, and the log says why.
   using SmallStepCallback = std::function<void(const SmallStepView&)>;
   /// The same for what lives as long as it likes: parts of the library, which leave the callback to the application.
   class SmallStepObserver {
@@ -140,14 +140,17 @@ class WETCLOTH_EXPORT ClothSolver final : public btDefaultSoftBodySolver {
   std::vector<int> stoppedNodes(const btSoftBody& body) const;
 
   /// Scales the stiffness of each link of a body that is taken, in the order of btSoftBody::m_links, without touching
-  /// its material: factors > 0, or none at all. `revision` tells this call's factors from another's: with that of the
-  /// last call nothing is done. WetCloth calls it in each step for what WetStiffness has set.
+  /// its material: factors > 0, or none at all; a link of a factor that is not > 0 does not pull. `revision` tells this
+  /// call's factors from another's: with that of the last call nothing is done. WetCloth calls it in each step for what
+  /// WetStiffness has set.
   void setLinkStiffness(const btSoftBody& body, const std::vector<btScalar>& factors, unsigned long long revision);
 
   /// What the guard does between layers of a body that is taken, by node: it multiplies Guard::friction by these, >= 0;
-  /// of two layers the larger factor counts. Empty: by 1. WetCloth calls it in each step for WetFriction.
+  /// of two layers the larger factor counts. Empty, or not one a node: by 1, and so where one is not finite and >= 0.
+  /// WetCloth calls it in each step for WetFriction.
   void setLayerFriction(const btSoftBody& body, const std::vector<btScalar>& factors);
-  /// What keeps each node on a layer that it touches, away from it and along it [N], >= 0; empty: nothing. WetCloth
+  /// What keeps each node on a layer that it touches, away from it and along it [N], >= 0; empty, or not one a node:
+  /// nothing, and so where one is not finite and >= 0. WetCloth
   /// calls it in each step for Cling.
   void setLayerCling(const btSoftBody& body, const std::vector<btScalar>& pull, const std::vector<btScalar>& shear);
 

@@ -216,7 +216,7 @@ btScalar PackedCloth::rounding() const {
   return farthest * std::numeric_limits<btScalar>::epsilon() / 2;
 }
 
-void PackedCloth::solve(const ClothSolver::Parameters& parameters, const SmallStepViewers& viewers) {
+void PackedCloth::solve(const ClothSolver::Parameters& parameters, SmallStepViewers& viewers) {
   if (!beginSmallSteps(parameters)) return;
   for (int k = 0; k < m_count; ++k) {
     takeSmallStep(k);
@@ -245,7 +245,7 @@ bool PackedCloth::beginSmallSteps(const ClothSolver::Parameters& parameters) {
   return true;
 }
 
-void PackedCloth::show(const SmallStepViewers& viewers, int index) {
+void PackedCloth::show(SmallStepViewers& viewers, int index) {
   if (viewers.empty()) return;
   const LinkedNodes nodes = linked();
   viewers.show({m_body,

@@ -70,12 +70,12 @@ class PackedCloth {
   /// Finds the contacts with a rigid body or a link of a multibody.
   void collide(const btCollisionObjectWrapper& object);
   /// All small steps.
-  void solve(const ClothSolver::Parameters& parameters, const SmallStepViewers& viewers);
+  void solve(const ClothSolver::Parameters& parameters, SmallStepViewers& viewers);
   /// The same, one by one. False: there are none in this step.
   bool beginSmallSteps(const ClothSolver::Parameters& parameters);
   int smallSteps() const { return m_count; }
   void takeSmallStep(int index);
-  void show(const SmallStepViewers& viewers, int index);
+  void show(SmallStepViewers& viewers, int index);
   void endSmallSteps();
   /// What a guard needs of it between them.
   ClothGuard::Cloth guarded();

@@ -85,9 +85,13 @@ CheckSettings settingsOf(std::optional<double> tolerance) {
 }
 
 void requireTolerance(const CcdMethodInfo& info, double tolerance) {
-  const double smallest = info.tolerance == Tolerance::time ? 1e-12 : 0;
-  if (info.tolerance == Tolerance::none || (tolerance >= smallest && tolerance <= 1)) return;
   char text[128];
+  if (info.tolerance == Tolerance::none) {
+    std::snprintf(text, sizeof text, "wetcloth: --tolerance = %g: %s has none", tolerance, info.name.c_str());
+    throw InputError(text);
+  }
+  const double smallest = info.tolerance == Tolerance::time ? 1e-12 : 0;
+  if (tolerance >= smallest && tolerance <= 1) return;
   std::snprintf(text, sizeof text, "wetcloth: --tolerance = %g: must be in [%g, 1] for %s", tolerance, smallest,
                 info.name.c_str());
   throw InputError(text);
@@ -115,7 +119,7 @@ const CcdMethodInfo& ccdMethodNamed(const std::string& name) {
 }
 
 void requireCcdMethod(const CcdMethodInfo& info, std::optional<double> tolerance) {
-  requireTolerance(info, tolerance.value_or(defaultCcdTolerance));
+  if (tolerance) requireTolerance(info, *tolerance);
   if (info.kind != Kind::exact || ContinuousCheck::hasExact()) return;
   throw InputError(
       "wetcloth: --method = \"exact\": is not in this build, for which Boost.Multiprecision was not found");

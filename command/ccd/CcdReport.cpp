@@ -32,7 +32,8 @@ void CcdReport::add(Pair pair, const std::vector<KnownQuery>& queries) {
   const auto isContact = [&](const KnownQuery& query) { return isAsked(query) && query.meets; };
   row.queries = static_cast<std::size_t>(std::count_if(queries.begin(), queries.end(), isAsked));
   row.contacts = static_cast<std::size_t>(std::count_if(queries.begin(), queries.end(), isContact));
-  const auto method = makeCcdMethod(m_method, m_tolerance, pair, queries);
+  const bool hasTolerance = m_method.tolerance != Tolerance::none;
+  const auto method = makeCcdMethod(m_method, hasTolerance ? std::optional(m_tolerance) : std::nullopt, pair, queries);
   row.isAnswered = method != nullptr;
   if (method && row.queries > 0) {
     std::vector<Contact> contacts(row.queries);

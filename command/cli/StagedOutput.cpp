@@ -59,6 +59,9 @@ void StagedOutput::requirePlace(Kind kind) const {
   if (!fs::is_empty(m_final, failed)) {
     throw InputError(m_option + ": must be a new or an empty folder, and this one has files in it");
   }
+  if (fs::equivalent(m_final, fs::current_path(failed), failed)) {
+    throw InputError(m_option + ": must not be the folder that the command runs in, which it would take the place of");
+  }
 }
 
 void StagedOutput::make(Kind kind) const {

@@ -41,14 +41,15 @@ void writePlots(command::PlotFiles& files, const Task& task, const Fit& fit) {
   std::cerr << "wetcloth: no gnuplot, so no pictures, only tables (Debian: apt install gnuplot-nox)\n";
 }
 
-/// Where the model fails for readings that cloth cannot have, these are why.
-Fit fitOf(const Task& task) {
+/// Where the model fails for readings that cloth cannot have, these are why. What fails is of this file.
+Fit fitOf(const std::string& file, const Task& task) {
   try {
     return fitLeastSquares(task.unknowns, task.predict, task.readings, task.roughness);
-  } catch (const std::runtime_error& error) {
+  } catch (const command::RunError& error) {
     const std::vector<std::string> doubts = doubtsOf(task);
-    if (doubts.empty()) throw;
-    throw command::RunError(error.what() + ("; " + doubts.front()));
+    throw command::RunError(file + ": " + error.what() + (doubts.empty() ? "" : "; " + doubts.front()));
+  } catch (const command::InputError& error) {
+    throw command::InputError(file + ": " + error.what());
   }
 }
 
@@ -66,7 +67,7 @@ void fitToFile(const FitOptions& options) {
   const Task task = command::valueOf(taskNames(), options.of)(table, wetcloth::Fabric::byName(options.fabric));
   std::optional<command::PlotFiles> plots;  // complains before the fit, which may take its time
   if (!options.directory.empty()) plots.emplace(options.directory);
-  const Fit fit = fitOf(task);
+  const Fit fit = fitOf(options.file, task);
   if (!output.ownsStandardOutput()) std::fputs(textOf(task, fit).c_str(), stdout);
   if (plots) writePlots(*plots, task, fit);
   nlohmann::ordered_json json = jsonOf(task, fit);

@@ -59,7 +59,7 @@ class Residuals {
       const double uncertainty = m_readings.uncertainties.empty() ? 1 : m_readings.uncertainties[i];
       residuals[static_cast<Index>(i)] = (model[i] - m_readings.values[i]) / uncertainty;
     }
-    if (!residuals.allFinite()) throw command::RunError("wetcloth: the model gives what is not finite");
+    if (!residuals.allFinite()) throw command::RunError("the model gives what is not finite");
     return 0;
   }
   int df(const VectorXd& logarithms, MatrixXd& jacobian) const {
@@ -114,7 +114,7 @@ class Search {
     residuals(logarithms, left);
     const double chiSquared = left.squaredNorm();
     if (!std::isfinite(chiSquared)) {
-      throw command::RunError("wetcloth: chi squared is not finite, the uncertainties are too small");
+      throw command::RunError("chi squared is not finite, the uncertainties are too small");
     }
     return {residuals.valuesAt(logarithms), chiSquared, hasConverged};
   }
@@ -264,7 +264,7 @@ class Telling {
 Fit fitLeastSquares(const std::vector<Unknown>& unknowns, const Predict& predict, const Readings& readings,
                     double roughness) {
   if (readings.values.size() <= unknowns.size()) {
-    throw command::InputError("wetcloth: " + counted(unknowns.size(), "number") + " cannot be fitted to " +
+    throw command::InputError("" + counted(unknowns.size(), "number") + " cannot be fitted to " +
                               counted(readings.values.size(), "reading") + ", there must be more");
   }
   const Search search(predict, readings, roughness);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 #include "command/reality/Study.h"
 
+#include "command/cli/Errors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -71,7 +73,11 @@ fit::Fit fitParameter(const Plan& plan, const std::vector<Sample>& samples) {
     }
     return model;
   };
-  return fit::fitLeastSquares({{plan.parameter, plan.start, plan.start}}, predict, readings, plan.roughness);
+  try {
+    return fit::fitLeastSquares({{plan.parameter, plan.start, plan.start}}, predict, readings, plan.roughness);
+  } catch (const command::RunError& error) {
+    throw command::RunError("wetcloth: " + plan.parameter + ": " + error.what());
+  }
 }
 
 ErrorSum errorsOf(const std::vector<Sample>& samples, const Group& group, bool isFitted, ErrorSum sum = {}) {

@@ -56,11 +56,13 @@ std::optional<std::string> findLongLink(const btSoftBody& body, const MotionBoun
     const bool isTorn = length > mostStretch * rest + 2 * bounds.speed * bounds.substep + bounds.sag;
     const bool isCloth = length <= mostStretchAtRest * rest + bounds.sag;
     if (isCloth && !(isTorn && parting * bounds.substep > rest)) continue;
+    const bool isFirst = link.m_n[0]->m_v.length2() >= link.m_n[1]->m_v.length2();
+    const btSoftBody::Node* const faster = link.m_n[isFirst ? 0 : 1];
     char text[160];
     std::snprintf(text, sizeof text,
                   "node %d moves with %.3g m/s, its link to node %d is %.3g times as long as at rest",
-                  numberOf(body, link.m_n[0]), static_cast<double>(link.m_n[0]->m_v.length()),
-                  numberOf(body, link.m_n[1]), length / rest);
+                  numberOf(body, faster), static_cast<double>(faster->m_v.length()),
+                  numberOf(body, link.m_n[isFirst ? 1 : 0]), length / rest);
     return text;
   }
   return std::nullopt;

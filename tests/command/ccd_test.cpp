@@ -201,6 +201,7 @@ TEST(Ccd, Usage) {
     expectRefusal(ccd({file, "--method", "fast", "--tolerance", tolerance}), {"--tolerance", tolerance, "[1e-12, 1]"});
   }
   expectRefusal(ccd({file, "--method", "newton", "--tolerance", "-1"}), {"--tolerance", "-1", "[0, 1]"});
+  expectRefusal(ccd({file, "--method", "bullet", "--tolerance", "nan"}), {"--tolerance = nan", "bullet has none"});
   expectRefusal(ccd({file, "--tolerance", "small"}), {"--tolerance", "small"});
   expectRefusal(ccd({file, "--precision", "float16"}), {"--precision", "float16"});
   expectRefusal(ccd({file, "--json", "/dev/null/result.json"}), {"--json"});

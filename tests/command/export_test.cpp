@@ -196,6 +196,18 @@ TEST(Export, AnEmptyFolderIsFilledAndAFileIsReplaced) {
 }
 
 #ifndef _WIN32
+TEST(Export, DoesNotTakeThePlaceOfTheFolderItRunsIn) {
+  const TemporaryDirectory directory;
+  const std::string scene = directory.write("scene.json", smallScene().dump());
+  fs::create_directory(directory.path("here"));
+  for (const char* const out : {".", "./", "../here"}) {
+    expectRefusal(runProgram({"bash", "-c", "cd \"$0\" && exec \"$@\"", directory.path("here"), WETCLOTH_COMMAND,
+                              "export", scene, "--format", "ply", "--out", out, "--precision", testedPrecision()}),
+                  {"--out", "the folder that the command runs in"});
+  }
+  EXPECT_EQ(namesIn(directory.path("")), (std::vector<std::string>{"here", "scene.json"}));
+}
+
 TEST(Export, AFullDiskLeavesNothing) {
   const TemporaryDirectory directory;
   const std::string scene = directory.write("scene.json", smallScene().dump());
@@ -215,13 +227,15 @@ TEST(Export, AFullDiskLeavesNothing) {
 
 TEST(Export, ARunThatFailsLeavesNothing) {
   Json scene = smallScene();
-  scene["gravity_m_s2"] = {0, -3e38, 0};
+  scene.erase("colliders");
+  scene["gravity_m_s2"] = {0, -1e8, 0};  // 2e8 m in 2 s
+  scene["cloths"][0].erase("effects");   // of which air would brake it
   const TemporaryDirectory directory;
   const std::string file = directory.write("scene.json", scene.dump());
   const Outcome outcome = runWetcloth(
       {"export", file, "--format", "ply", "--out", directory.path("ply"), "--precision", "float32", "--duration", "2"});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_NE(outcome.err.find("non-finite"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("m away"), std::string::npos) << outcome.err;
   EXPECT_EQ(namesIn(directory.path("")), std::vector<std::string>{"scene.json"});
 }
 

@@ -97,6 +97,7 @@ TEST(Fit, WhereTheModelFailsTellsWhichUnitsMayBeWrong) {
   const std::string file = directory.write("data.csv", "time_s,height_m\n1,1e19\n2,2e19\n3,1e20\n");
   const Outcome outcome = runWetcloth({"fit", file, "--of", "wicking"});
   EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err.rfind(file + ": ", 0), 0u) << outcome.err;
   EXPECT_NE(outcome.err.find("height_m reaches 1e+20"), std::string::npos) << outcome.err;
 }
 

@@ -9,10 +9,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace wetcloth_test::wet_layers_test {
 namespace {
@@ -75,6 +77,29 @@ struct Layers {
   wetcloth::WetCloth& fixedCloth;
   wetcloth::WetCloth& looseCloth;
 };
+
+// --- numbers that are none -----------------------------------------------------------------------------------------
+
+TEST_IN_POSITION_BASED_WORLDS(WetLayers, NumbersThatAreNoneCountForNothing) {
+  const std::vector<btScalar> bad{std::numeric_limits<btScalar>::quiet_NaN(), -1,
+                                  std::numeric_limits<btScalar>::infinity()};
+  const auto places = [&](bool isTold) {
+    Layers layers(GetParam(), kThickness, 0.3, btVector3(1, btScalar(-kGravity), 0));
+    wetcloth::ClothSolver& solver = layers.scene.scene().solver();
+    std::vector<btScalar> values;
+    for (int k = 0; k < layers.loose.m_nodes.size(); ++k) values.push_back(bad[std::size_t(k) % bad.size()]);
+    for (int step = 0; step < 10; ++step) {
+      if (isTold) {
+        solver.setLayerFriction(layers.loose, values);
+        solver.setLayerCling(layers.loose, values, values);
+        solver.setLayerFriction(layers.fixed, {1, 2, 3});  // of three nodes; it has 169
+      }
+      layers.scene.step(1);
+    }
+    return layers.middle();
+  };
+  EXPECT_EQ(places(true), places(false));
+}
 
 // --- water ----------------------------------------------------------------------------------------------------------
 

@@ -7,11 +7,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace wetcloth_test::cloth_solver_small_steps_test {
 namespace {
+
+using wetcloth::ClothSolver;
 
 TEST(ClothSolverSmallSteps, TellsHowManySmallStepsAStiffClothNeeds) {
   const double mass = 0.002;
@@ -38,6 +42,34 @@ TEST(ClothSolverSmallSteps, ShowsEachSmallStep) {
   scene.step(1);
   EXPECT_EQ(indices, (std::vector<int>{0, 1, 2, 3, 4, 5, 6}));
   EXPECT_LT(double((last - body.m_nodes[2].m_x).length()), 1e-6);
+}
+
+TEST(ClothSolverSmallSteps, ACallbackThatThrowsIsNotCalledAgain) {
+  for (const bool isGuarded : {false, true}) {
+    ClothSolver::Parameters parameters = smallSteps(7);
+    if (isGuarded) parameters.guard.emplace();
+    SolverScene scene(WorldKind::softRigid, kEarthGravity, parameters);
+    SolverScene silent(WorldKind::softRigid, kEarthGravity, parameters);
+    btSoftBody& body = scene.add(hangingPatch(5));
+    btSoftBody& undisturbed = silent.add(hangingPatch(5));
+    int calls = 0;
+    scene.solver().setSmallStepCallback([&](const ClothSolver::SmallStepView&) {
+      if (++calls == 3) throw std::runtime_error("no room");
+    });
+    EXPECT_NO_THROW(scene.step(2));
+    EXPECT_EQ(calls, 3);
+    ASSERT_EQ(scene.messages().size(), 1u);
+    EXPECT_NE(scene.messages().front().find("no room"), std::string::npos) << scene.messages().front();
+    silent.step(2);
+    for (int i = 0; i < body.m_nodes.size(); ++i) EXPECT_EQ(body.m_nodes[i].m_x, undisturbed.m_nodes[i].m_x) << i;
+  }
+}
+
+TEST(ClothSolverSmallSteps, ALogThatThrowsDoesNotStopTheStep) {
+  SolverScene scene(WorldKind::softRigid, kEarthGravity, smallSteps(7));
+  scene.add(hangingPatch(5)).m_nodes[7].m_x.setX(std::numeric_limits<btScalar>::quiet_NaN());
+  scene.solver().setLog([](const std::string&) { throw std::runtime_error("no room"); });
+  EXPECT_NO_THROW(scene.step(2));
 }
 
 // They are about as long in any of Bullet's steps.
