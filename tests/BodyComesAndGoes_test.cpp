@@ -5,6 +5,7 @@
 #include "tests/support/BodyScene.h"
 #include "tests/support/BodyState.h"
 #include "tests/support/BulletWorld.h"
+#include "tests/support/ContactScene.h"
 #include "tests/support/ExactPace.h"
 #include "tests/support/InEveryWorld.h"
 #include "tests/support/Materials.h"
@@ -17,9 +18,22 @@ namespace wetcloth_test::body_comes_and_goes_test {
 namespace {
 
 void addEverything(wetcloth::WetCloth& cloth) {
+  cloth.body().m_cfg.collisions =
+      contactFlags(cloth.isInDeformableWorld() ? WorldKind::deformable : WorldKind::softRigid);
   cloth.add<wetcloth::Absorption>();
   cloth.add<wetcloth::Wind>({btVector3(1, 0, 2)});
   cloth.add<wetcloth::HookeSprings>(springsOf(200, 5));
+  cloth.add<wetcloth::Rain>();
+  cloth.add<wetcloth::Diffusion>();
+  cloth.add<wetcloth::Seepage>();
+  cloth.add<wetcloth::Dripping>();
+  cloth.add<wetcloth::Drying>();
+  cloth.add<wetcloth::ContactWetting>();
+  cloth.add<wetcloth::Cling>();
+  cloth.add<wetcloth::WetFriction>();
+  cloth.add<wetcloth::WetStiffness>();
+  cloth.add<wetcloth::Swelling>();
+  cloth.add<wetcloth::CollisionAudit>();
 }
 
 // Memory checkers watch this one.
@@ -59,6 +73,8 @@ TEST_IN_EVERY_WORLD(BodyComesAndGoes, DeletedAndWeAreAskedWithoutAnotherStep) {
     EXPECT_EQ(cloth.nodeCount(), 16);
     std::stringstream stream;
     EXPECT_NO_THROW(wet.save(stream));  // a cloth that is not there has a state, too
+    EXPECT_NO_THROW(wet.restore(stream));
+    cloth.find<wetcloth::CollisionAudit>()->look();
     if (byDetach) wet.detach();
   }
 }

@@ -136,8 +136,11 @@ void CollisionAudit::apply(WetCloth& cloth, const Step& step) {
   observe();
 }
 
+// One that has left the world may have been deleted.
+bool CollisionAudit::isBodyThere() const { return m_cloth->world().isInWorld(m_cloth->body()); }
+
 void CollisionAudit::look() {
-  if (!m_cloth || !m_isFollowing || !m_own->fits(m_cloth->body())) return;
+  if (!m_cloth || !m_isFollowing || !isBodyThere() || !m_own->fits(m_cloth->body())) return;
   const double end = m_isPending ? m_time + m_dt : m_time;
   lookUntil(end);
   m_time = end;
@@ -304,7 +307,7 @@ void CollisionAudit::transferState(StateArchive& archive) {
   archive.value(m_totals.vertexFace, m_totals.edgeEdge, m_totals.candidatePairs, m_totals.substeps);
   archive.value(m_totals.incompleteSubsteps, m_totals.seconds);
   archive.value(m_isFollowing, m_isPending, m_time, m_dt, m_lookEnd);
-  m_own->transferState(archive, m_cloth->body());
+  if (isBodyThere()) m_own->transferState(archive, m_cloth->body());
   transferOthers(archive);
   m_finder->transferState(archive, m_cloth->world().softBodies());
   m_smallFinder->transferState(archive, m_cloth->world().softBodies());

@@ -98,7 +98,7 @@ class WETCLOTH_EXPORT CollisionAudit : public Effect {
   const std::vector<Passage>& passages() const { return m_passages; }
 
   /// Looks at what has happened since the last look: after the last step of a run, and before the bodies are cut or
-  /// moved by hand. Nothing is counted twice.
+  /// moved by hand. Nothing is counted twice, and nothing of a body that has left the world.
   void look();
   /// Call it after nodes were moved by hand, which would look like motion. Totals stay.
   void reset();
@@ -118,6 +118,7 @@ class WETCLOTH_EXPORT CollisionAudit : public Effect {
   struct Other;
 
   std::unique_ptr<PassageFinder> makeFinder(collision::Tier tier);
+  bool isBodyThere() const;
   void restart();
   void observe();
   void lookUntil(double time);
