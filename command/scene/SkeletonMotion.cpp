@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 #include "command/scene/SkeletonMotion.h"
 
+#include "command/cli/Errors.h"
 #include "command/scene/Trial.h"
 
 #include <assimp/config.h>
@@ -12,9 +13,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <new>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -210,6 +213,27 @@ class SkeletonReader {
   SkeletonMotion m_motion;
 };
 
+std::string wholeOf(std::ifstream& stream) {
+  stream.clear();
+  stream.seekg(0);
+  return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+/// assimp makes room for as many as a BVH file says, and goes through them, before it looks whether they are there.
+void requireFramesThatFit(const std::string& text) {
+  static const std::string key = "Frames:";
+  for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
+    std::istringstream rest(text.substr(at + key.size(), 100));
+    std::string word;
+    rest >> word;
+    const bool isCount = word.find_first_not_of("0123456789") == std::string::npos && word.size() < 18;
+    const std::uint64_t count = isCount && !word.empty() ? std::stoull(word) : 0;
+    if (count > 0 && count <= mostFrames && count <= text.size()) continue;
+    throw std::invalid_argument("has \"Frames: " + shortened(word, 40) +
+                                "\": must be a whole number from 1 to 1000000, and no more than are in the file");
+  }
+}
+
 /// assimp goes by what is in a file and knows many formats, some of which say of a few bytes that they are gigabytes.
 void requireKnownFormat(const std::string& file) {
   constexpr std::size_t headOfGlb = 12;
@@ -229,7 +253,8 @@ void requireKnownFormat(const std::string& file) {
   }
   const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   const bool isText = first != std::string::npos;
-  if (isText && (start[first] == '{' || start.compare(first, 9, "HIERARCHY") == 0)) return;
+  if (isText && start[first] == '{') return;
+  if (isText && start.compare(first, 9, "HIERARCHY") == 0) return requireFramesThatFit(wholeOf(stream));
   throw std::invalid_argument("is neither BVH nor glTF, by how it begins");
 }
 

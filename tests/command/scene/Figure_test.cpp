@@ -176,6 +176,12 @@ TEST(Figure, BadOnesAreNamed) {
     timed.replace(timed.find("Time: 1") + 6, 1, time);
     expectNames(reading.complaint(figureScene(), timed), {"/figures/0/motion", "the time of a frame"});
   }
+  for (const char* const count : {"-7", "0", "4294967290", "100000000", "1e3", "x", "99999999999999999999"}) {
+    std::string counted = whole;
+    counted.replace(counted.find("Frames: ") + 8, 1, count);
+    expectNames(reading.complaint(figureScene(), counted),
+                {"/figures/0/motion", std::string("\"Frames: ") + count + '"', "1 to 1000000"});
+  }
   for (const char* const offset : {"1e60", "nan", "1e7"}) {
     std::string far = whole;
     far.replace(far.rfind("OFFSET 1") + 7, 1, offset);
