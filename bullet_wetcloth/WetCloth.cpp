@@ -339,7 +339,7 @@ double WetCloth::roughness(int node) const {
 // --- save and restore -----------------------------------------------------------------------------------------------
 
 void WetCloth::transferState(StateArchive& archive) {
-  if (archive.isRestoring()) followSolver();
+  if (archive.isRestoring() && m_world.isInWorld(m_body)) followSolver();
   archive.expect(m_water.size(), "a cloth's number of nodes");
   archive.expect(m_world.isInWorld(m_body), "whether a cloth's body is in the world");
   archive.value(m_massAsleep, m_wasPresent, m_hasJustBegun);
@@ -357,6 +357,7 @@ void WetCloth::transferMesh(StateArchive& archive) {
   unsigned char has = m_restMesh ? 1 : 0;
   archive.local(has);
   if (has == 0) return;
+  if (!m_restMesh && !m_world.isInWorld(m_body)) archive.fail("a cloth's triangles are saved, and its body is gone");
   if (!m_restMesh && archive.isChecking()) {
     RestMesh(m_body).transferState(archive);
   } else {
