@@ -18,7 +18,6 @@
 namespace wetcloth_test::hooke_springs_dynamics_test {
 namespace {
 
-using wetcloth::Hook;
 using wetcloth::HookeSprings;
 
 constexpr double kPi = 3.14159265358979323846;
