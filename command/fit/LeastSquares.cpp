@@ -264,7 +264,7 @@ class Telling {
 Fit fitLeastSquares(const std::vector<Unknown>& unknowns, const Predict& predict, const Readings& readings,
                     double roughness) {
   if (readings.values.size() <= unknowns.size()) {
-    throw command::InputError("" + counted(unknowns.size(), "number") + " cannot be fitted to " +
+    throw command::InputError(counted(unknowns.size(), "number") + " cannot be fitted to " +
                               counted(readings.values.size(), "reading") + ", there must be more");
   }
   const Search search(predict, readings, roughness);
